@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: Apache-2.0
+# How a folder of src/ becomes a target, and the flags that every target of ours has.
+
+# Contraction would let the compiler fuse a multiply and an add on one machine and not on another; contact
+# is chaotic, so a last bit becomes another motion (docs/determinism.md).
+add_library(ifa_flags INTERFACE)
+target_compile_options(ifa_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -ffp-contract=off
+  $<$<BOOL:${IFA_WARNINGS_AS_ERRORS}>:-Werror>)
+
+# ifa_folder(NAME DEPENDS folder... LIBRARIES external...)
+# An object library of src/NAME/*.cpp that sees the folders it names and nothing else of ours.
+function(ifa_folder NAME)
+  cmake_parse_arguments(ARG "" "" "DEPENDS;LIBRARIES" ${ARGN})
+  file(GLOB SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${NAME}/*.cpp)
+  list(TRANSFORM ARG_DEPENDS PREPEND ifa_)
+  if(SOURCES)
+    add_library(ifa_${NAME} OBJECT ${SOURCES})
+    set(SCOPE PUBLIC)
+    target_link_libraries(ifa_${NAME} PRIVATE ifa_flags)
+    set_property(GLOBAL APPEND PROPERTY IFA_OBJECT_FOLDERS ifa_${NAME})
+  else()
+    add_library(ifa_${NAME} INTERFACE)
+    set(SCOPE INTERFACE)
+  endif()
+  target_include_directories(ifa_${NAME} ${SCOPE} ${PROJECT_SOURCE_DIR}/src
+                                                  ${PROJECT_SOURCE_DIR}/include)
+  target_link_libraries(ifa_${NAME} ${SCOPE} Eigen3::Eigen ${ARG_DEPENDS} ${ARG_LIBRARIES})
+endfunction()
+
+# ifa_tests(NAME): tests/NAME/*_test.cpp as one program ifa_NAME_test, each test a ctest of its own.
+function(ifa_tests NAME)
+  file(GLOB SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${NAME}/*.cpp)
+  if(SOURCES)
+    add_executable(ifa_${NAME}_test ${SOURCES})
+    target_include_directories(ifa_${NAME}_test PRIVATE ${PROJECT_SOURCE_DIR}/src
+                                                        ${PROJECT_SOURCE_DIR}/tests)
+    target_compile_definitions(ifa_${NAME}_test PRIVATE
+      IFA_SOURCE_DIR="${PROJECT_SOURCE_DIR}" IFA_PROGRAM="$<TARGET_FILE:ifa_program>")
+    target_link_libraries(ifa_${NAME}_test PRIVATE ifa ifa_flags ${ARGN} GTest::gtest_main
+                                                   GTest::gmock)
+    gtest_discover_tests(ifa_${NAME}_test TEST_PREFIX "${NAME}." DISCOVERY_TIMEOUT 60
+                         PROPERTIES TIMEOUT 900)
+  endif()
+endfunction()

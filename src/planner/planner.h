@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// The interface of all planners: a signature and a body in, ranked and different plans out.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+#include "body/body.h"
+#include "ifa/contact_signature.h"
+#include "ifa/motion.h"
+#include "ifa/result.h"
+#include "model/contact_event.h"
+#include "model/rigid_state.h"
+
+namespace ifa {
+
+/// What the user may set for any planner.
+struct PlannerSettings {
+  std::uint64_t seed = 1;
+  int takes = 1;                ///< different plans wanted, 1 to 32
+  double timeLimitSeconds = 0;  ///< cuts the search off; 0: never
+  double energyGain = 0;        ///< eq. 10 relaxed to E (1 + gain), for music
+  double bendCap = 2;           ///< no contact may be changed by more
+  double effort = 1;            ///< scales the budget of counted work
+};
+
+/// What is to be planned.
+struct PlanRequest {
+  const Body* body = nullptr;
+  SurfaceProperties surface;
+  ContactSignature signature;
+  PlannerSettings settings;
+};
+
+/// One contact of a plan: the event as simulated, and the change of velocity that leads out of it.
+struct PlannedContact {
+  ContactEvent event;      ///< times in the event's own simulation; `before` starts it
+  double time = 0;         ///< start in the plan, s after the first contact
+  double restitution = 0;  ///< used inside this event
+  /// Added to `event.after` before the flight (or silent contact) to the next contact.
+  Eigen::Vector3d velocityChange = Eigen::Vector3d::Zero();         ///< m/s
+  Eigen::Vector3d angularVelocityChange = Eigen::Vector3d::Zero();  ///< rad/s, world frame
+  double relativeAmplitude = 1;
+  ContactFactors factors;  ///< of the edge that arrives here
+  double bend = 0;         ///< likewise
+  Arrival arrival = Arrival::kFlight;
+};
+
+/// A planned motion, or as much of one as was found.
+struct Plan {
+  bool solved = false;
+  std::string failure;  ///< which contact fails, why, and what would help; empty when solved
+  bool timeLimitReached = false;
+  double score = 0, scoreWithoutSound = 0, meanFv = 0, bendMedian = 0, bendMax = 0;
+  std::vector<PlannedContact> contacts;
+};
+
+/// Thread safe: `plan` may be called from several threads.
+class Planner {
+ public:
+  virtual ~Planner() = default;
+  /// At least one plan (the best partial one when none is solved), best first.
+  /// Errors: kInterrupted when asked to stop before anything was found; kBadInput for an empty signature.
+  [[nodiscard]] virtual Result<std::vector<Plan>> plan(const PlanRequest& request,
+                                                       const Progress& progress) const = 0;
+};
+
+/// @param name  "shoot" (others follow)
+[[nodiscard]] Result<std::unique_ptr<Planner>> makePlanner(const std::string& name);
+
+}  // namespace ifa

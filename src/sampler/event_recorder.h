@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finds audible contact events in a row of contact steps (IFA section 4, docs/method.md 2).
+#pragma once
+
+#include <vector>
+
+#include "model/contact_event.h"
+#include "model/contact_step.h"
+
+namespace ifa {
+
+/// How impulses become events.
+struct RecorderSettings {
+  double mergeGap = 0.010;  ///< delta t of IFA section 4: smaller gaps are closed, s
+  double weight = 0;        ///< m g, N; twice this share of a bin is what carries the body quietly
+  double threshold = 0;     ///< N s; a bin whose excess is not above this is not heard
+  /// Decision: events are audible events. False takes the paper's own cut, any impulse above zero.
+  bool audible = true;
+};
+
+/// Takes the steps of one simulation in order of time; ask for the events at the end.
+class EventRecorder {
+ public:
+  explicit EventRecorder(const RecorderSettings& settings) : settings_(settings) {}
+
+  void add(const ContactStep& step);
+  /// Closes the last event, marks it terminal when `atRest`, and returns all events.
+  [[nodiscard]] std::vector<ContactEvent> finish(bool atRest);
+  /// Largest impulse in one bin so far, N s.
+  [[nodiscard]] double largestImpulse() const { return largest_; }
+
+ private:
+  void closeBin();
+
+  RecorderSettings settings_;
+  std::vector<ContactEvent> events_;
+  std::vector<double> squares_;  ///< sum of squared excess impulses of each event
+  std::vector<double> moments_;  ///< sums of excess and of excess times time of the current event
+  ContactStep bin_;              ///< the 1 ms bin that is being filled
+  bool open_ = false;
+  double sum_ = 0, moment_ = 0, largest_ = 0;
+};
+
+}  // namespace ifa
