@@ -14,14 +14,15 @@ namespace ifa {
 
 /// Pose and velocities at one instant. World frame, z up, ground at z = 0.
 struct MotionSample {
-  double time = 0;  ///< s after the first contact's start
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();            ///< centre of mass, m
+  double time = 0;                                     ///< s after the first contact's start
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< centre of mass, m
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< world from body (mesh axes)
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();            ///< m/s, as played
-  Eigen::Vector3d angularVelocity = Eigen::Vector3d::Zero();     ///< rad/s, world frame, as played
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();               ///< m/s, as played
+  Eigen::Vector3d angularVelocity = Eigen::Vector3d::Zero();  ///< rad/s, world frame, as played
 };
 
-/// Affinity factors (equations 3 to 8, and f_o, f_p of section 6) of the edge that arrives at a contact.
+/// Affinity factors (equations 3 to 8, and f_o, f_p of section 6) of the edge that arrives at a
+/// contact.
 struct ContactFactors {
   double v = 1, q = 1, t = 1, a = 1, l = 1, c = 1, o = 1, p = 1;
 };
@@ -37,7 +38,8 @@ struct ContactSource {
   int symmetry = 0;
 };
 
-/// One contact event of the motion, beside the target that it meets. Times in s after the first contact.
+/// One contact event of the motion, beside the target that it meets. Times in s after the first
+/// contact.
 struct MotionContact {
   double targetTime = 0, time = 0;
   double targetDuration = 0, duration = 0;  ///< filtered: 0 for discrete events
@@ -49,10 +51,12 @@ struct MotionContact {
   ContactSource source;
   ContactFactors factors;
   double retiming = 1;  ///< T* / T_b of the edge that arrives
-  double bend = 0;      ///< length of the change at the start of the arriving edge, 1 = edge of plausible
+  double bend =
+      0;  ///< length of the change at the start of the arriving edge, 1 = edge of plausible
   double restitution = 0;
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();       ///< centre of mass at the start, m
-  Eigen::Vector3d impulseChange = Eigen::Vector3d::Zero();  ///< N s, added at the start of the arriving edge
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< centre of mass at the start, m
+  Eigen::Vector3d impulseChange =
+      Eigen::Vector3d::Zero();  ///< N s, added at the start of the arriving edge
   Eigen::Vector3d angularChange = Eigen::Vector3d::Zero();  ///< N m s, likewise
 };
 
@@ -99,7 +103,8 @@ struct Motion {
   std::optional<DatabaseReference> database;
   std::vector<MotionContact> contacts;
   std::vector<std::array<double, 2>> silent;  ///< intervals of silent contact, s
-  std::vector<MotionSample> trajectory;       ///< non-decreasing times; two samples share an impact's time
+  std::vector<MotionSample>
+      trajectory;  ///< non-decreasing times; two samples share an impact's time
 };
 
 }  // namespace ifa

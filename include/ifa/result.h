@@ -10,8 +10,9 @@ namespace ifa {
 
 /// Kinds of expected failure; the values are the exit codes of the command line.
 enum class ErrorCode {
-  kUsage = 2,        ///< the call itself makes no sense
-  kBadInput = 3,     ///< a file, a line or a value that cannot be used, or an output that cannot be written
+  kUsage = 2,  ///< the call itself makes no sense
+  kBadInput =
+      3,  ///< a file, a line or a value that cannot be used, or an output that cannot be written
   kNoMotion = 4,     ///< the input is sound, but no acceptable motion was found
   kInterrupted = 5,  ///< the user asked to stop
   kInternal = 70,    ///< a bug of ours

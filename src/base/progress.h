@@ -8,8 +8,8 @@
 
 namespace ifa {
 
-/// Handed down to anything that may take long. Thread safe as far as `stopRequested` goes; `report` is
-/// called from one thread at a time.
+/// Handed down to anything that may take long. Thread safe as far as `stopRequested` goes; `report`
+/// is called from one thread at a time.
 struct Progress {
   /// Called with a stage's name and its share done, 0 to 1. May be empty.
   std::function<void(std::string_view stage, double share)> report;

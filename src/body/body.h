@@ -13,11 +13,12 @@ namespace ifa {
 
 /// Contact behaviour of an object on one kind of ground.
 struct SurfaceProperties {
-  double restitution = 0.5;        ///< Newton coefficient, 0 to 0.95
-  double friction = 0.35;          ///< Coulomb coefficient, 0 to 2
-  double rollingFriction = 0;      ///< m
-  double spinningFriction = 0;     ///< m
-  double referenceImpulse = 0;     ///< J_ref, N s: median over sampled drops of the largest impulse in 1 ms
+  double restitution = 0.5;     ///< Newton coefficient, 0 to 0.95
+  double friction = 0.35;       ///< Coulomb coefficient, 0 to 2
+  double rollingFriction = 0;   ///< m
+  double spinningFriction = 0;  ///< m
+  double referenceImpulse =
+      0;  ///< J_ref, N s: median over sampled drops of the largest impulse in 1 ms
 };
 
 /// How initial states are sampled (IFA 5.1).
@@ -37,9 +38,9 @@ struct MeshMaterial {
 
 /// Triangle mesh, counter-clockwise seen from outside.
 struct Mesh {
-  std::vector<Eigen::Vector3d> vertices;          ///< m
-  std::vector<std::array<int, 3>> triangles;      ///< indices into vertices
-  std::vector<int> triangleMaterial;              ///< one index into materials per triangle; may be empty
+  std::vector<Eigen::Vector3d> vertices;      ///< m
+  std::vector<std::array<int, 3>> triangles;  ///< indices into vertices
+  std::vector<int> triangleMaterial;  ///< one index into materials per triangle; may be empty
   std::vector<MeshMaterial> materials;
 };
 
@@ -55,8 +56,8 @@ struct ObjectDefinition {
   std::map<std::string, SurfaceProperties> surfaces;
   std::string defaultSurface;
   SamplingSettings sampling;
-  double mergeGap = 0.010;                              ///< delta t of IFA section 4, s
-  std::map<std::string, Eigen::Vector3d> faces;         ///< unit directions in the body frame
+  double mergeGap = 0.010;                       ///< delta t of IFA section 4, s
+  std::map<std::string, Eigen::Vector3d> faces;  ///< unit directions in the body frame
 };
 
 /// A body: mesh and mass properties. Body frame: the mesh's axes, origin at the centre of mass.
@@ -65,9 +66,9 @@ struct Body {
   Mesh mesh;                          ///< body frame
   std::vector<Eigen::Vector3d> hull;  ///< vertices of the convex hull, body frame
   double mass = 0;                    ///< kg
-  Eigen::Vector3d centreOfMass = Eigen::Vector3d::Zero();         ///< in the mesh file's frame, m
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Identity();          ///< body frame, kg m^2
-  Eigen::Vector3d principalMoments = Eigen::Vector3d::Ones();     ///< kg m^2, ascending
+  Eigen::Vector3d centreOfMass = Eigen::Vector3d::Zero();           ///< in the mesh file's frame, m
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Identity();            ///< body frame, kg m^2
+  Eigen::Vector3d principalMoments = Eigen::Vector3d::Ones();       ///< kg m^2, ascending
   Eigen::Matrix3d bodyFromPrincipal = Eigen::Matrix3d::Identity();  ///< a rotation
   double radius = 0;  ///< largest distance of a hull vertex from the centre of mass, m
   double size = 0;    ///< longest side of the mesh's bounding box, m

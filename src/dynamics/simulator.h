@@ -13,9 +13,9 @@ namespace ifa {
 
 /// What a whole drop gave.
 struct DropResult {
-  bool atRest = false;       ///< false: the time limit came first
-  double restTime = 0;       ///< s, when the body came to rest (or the limit)
-  RigidState rest;           ///< state then
+  bool atRest = false;             ///< false: the time limit came first
+  double restTime = 0;             ///< s, when the body came to rest (or the limit)
+  RigidState rest;                 ///< state then
   std::vector<ContactStep> steps;  ///< impacts and steps in contact, in order of time
 };
 

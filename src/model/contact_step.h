@@ -10,10 +10,11 @@ namespace ifa {
 struct ContactStep {
   double time = 0;      ///< s, at its beginning
   double duration = 0;  ///< s
-  Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< sum over all contact points, world frame, N s
-  RigidState before;    ///< at `time`
-  RigidState after;     ///< at `time + duration`
-  bool touching = false;  ///< still in contact afterwards
+  Eigen::Vector3d impulse =
+      Eigen::Vector3d::Zero();  ///< sum over all contact points, world frame, N s
+  RigidState before;            ///< at `time`
+  RigidState after;             ///< at `time + duration`
+  bool touching = false;        ///< still in contact afterwards
 };
 
 }  // namespace ifa

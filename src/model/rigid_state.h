@@ -8,8 +8,9 @@
 namespace ifa {
 
 /// Position and velocity of a body (IFA section 4). World frame: z up, ground at z = 0.
-/// The orientation is world from *principal* frame (axes of inertia, origin at the centre of mass), the
-/// frame in which dynamics and planners work; files use the mesh's axes (Body::bodyFromPrincipal).
+/// The orientation is world from *principal* frame (axes of inertia, origin at the centre of mass),
+/// the frame in which dynamics and planners work; files use the mesh's axes
+/// (Body::bodyFromPrincipal).
 struct RigidState {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();               ///< centre of mass, m
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< world from principal

@@ -10,8 +10,8 @@
 
 namespace ifa {
 
-/// Trajectory, contacts and scores of `plan` (docs/method.md 8). Leaves `sound`, `program`, `seed` and
-/// `searchSeconds` to the caller.
+/// Trajectory, contacts and scores of `plan` (docs/method.md 8). Leaves `sound`, `program`, `seed`
+/// and `searchSeconds` to the caller.
 /// @param preRoll  s of flight before the first contact, cut where an earlier contact would lie
 /// Errors: kInternal when a replay does not give the planned state.
 [[nodiscard]] Result<Motion> buildMotion(const PlanRequest& request, const Plan& plan,

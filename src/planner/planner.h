@@ -63,7 +63,8 @@ class Planner {
  public:
   virtual ~Planner() = default;
   /// At least one plan (the best partial one when none is solved), best first.
-  /// Errors: kInterrupted when asked to stop before anything was found; kBadInput for an empty signature.
+  /// Errors: kInterrupted when asked to stop before anything was found; kBadInput for an empty
+  /// signature.
   [[nodiscard]] virtual Result<std::vector<Plan>> plan(const PlanRequest& request,
                                                        const Progress& progress) const = 0;
 };
