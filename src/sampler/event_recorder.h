@@ -34,11 +34,10 @@ class EventRecorder {
 
   RecorderSettings settings_;
   std::vector<ContactEvent> events_;
-  std::vector<double> squares_;  ///< sum of squared excess impulses of each event
-  std::vector<double> moments_;  ///< sums of excess and of excess times time of the current event
-  ContactStep bin_;              ///< the 1 ms bin that is being filled
+  ContactStep bin_;  ///< the 1 ms bin that is being filled
   bool open_ = false;
-  double sum_ = 0, moment_ = 0, largest_ = 0;
+  double square_ = 0, sum_ = 0, moment_ = 0;  ///< of the current event's excess impulses
+  double largest_ = 0;
 };
 
 }  // namespace ifa
