@@ -46,13 +46,27 @@ struct Mesh {
 
 enum class BodyKind { kSolid, kShell };
 
+/// One piece of a body that is made of several materials: its own mesh and its own mass.
+struct ObjectPart {
+  std::string meshFile;  ///< as the object file names it, same units as the object's mesh
+  std::string meshPath;  ///< resolved path
+  BodyKind kind = BodyKind::kSolid;
+  double mass = 0;     ///< kg; 0: given by the density
+  double density = 0;  ///< kg/m^3 (solid) or kg/m^2 (shell); 0: given by the mass
+};
+
 /// Everything that an object file says (objects/NAME.json).
 struct ObjectDefinition {
   std::string name, title, material, notes;
-  std::string path;      ///< the object file; empty when made in memory
-  std::string meshPath;  ///< resolved path of the mesh
+  std::string path;                ///< the object file; empty when made in memory
+  std::string meshPath;            ///< resolved path of the mesh
+  std::string meshFile;            ///< the mesh as the object file names it, relative to that file
+  std::string hullFile, hullPath;  ///< mesh whose hull physics uses; empty: the visible mesh's
+  std::string units = "m";         ///< of the meshes: m, cm, mm or in
   BodyKind kind = BodyKind::kSolid;
-  double mass = 0;  ///< kg
+  double mass = 0;                ///< kg; 0: given by the density or the parts
+  double density = 0;             ///< kg/m^3 (solid) or kg/m^2 (shell); 0: given by the mass
+  std::vector<ObjectPart> parts;  ///< composite bodies only
   std::map<std::string, SurfaceProperties> surfaces;
   std::string defaultSurface;
   SamplingSettings sampling;

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads any mesh that assimp reads.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "body/body.h"
+#include "ifa/result.h"
+
+namespace ifa {
+
+/// Reads a mesh file: all its nodes in one mesh, vertices welded (1e-6 of the size), triangles that
+/// the welding collapsed left out, materials and colours kept (colours per vertex become one
+/// material per colour).
+/// @param metresPerUnit  length of the file's unit, m
+[[nodiscard]] Result<Mesh> importMesh(const std::filesystem::path& path, double metresPerUnit);
+
+/// Joins vertices closer than `tolerance` (m) and drops triangles that collapse.
+[[nodiscard]] Mesh weldVertices(const Mesh& mesh, double tolerance);
+
+}  // namespace ifa
