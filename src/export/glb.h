@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// A motion as binary glTF 2.0 for animation tools (docs/file-formats.md).
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "body/body.h"
+#include "ifa/motion.h"
+#include "ifa/result.h"
+
+namespace ifa {
+
+struct GlbSettings {
+  double keyRate = 120;       ///< keys per second, Hz
+  double maxError = 0.9e-4;   ///< m; more keys are set where a surface point would be further off
+  double creaseDegrees = 30;  ///< edges sharper than this are drawn sharp
+};
+
+/// The visible mesh with its materials, moved by one node's translation and rotation: metres, Y up,
+/// LINEAR keys at `keyRate` and exactly at each contact's start and end, t = 0 at the sound's first
+/// sample (the first pose is held until the motion begins), rest pose = first key. Contacts, seed
+/// and sound are in the node's `extras`. The same motion gives the same bytes.
+/// Errors: kInternal when the motion has no samples or the mesh no triangles.
+[[nodiscard]] Result<std::string> formatGlb(const Motion& motion, const Body& body,
+                                            const GlbSettings& settings = {});
+
+/// Atomic. Errors: those of formatGlb; kBadInput when the file cannot be written.
+[[nodiscard]] Result<void> writeGlb(const std::filesystem::path& path, const Motion& motion,
+                                    const Body& body, const GlbSettings& settings = {});
+
+}  // namespace ifa
