@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
+// The whole public interface.
+#pragma once
+
+#include "ifa/contact_signature.h"  // IWYU pragma: export
+#include "ifa/motion.h"             // IWYU pragma: export
+#include "ifa/progress.h"           // IWYU pragma: export
+#include "ifa/result.h"             // IWYU pragma: export
+#include "ifa/synchronize.h"        // IWYU pragma: export

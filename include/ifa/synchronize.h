@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// The main job as a library: a sound and an object in, synchronised motions out.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "ifa/contact_signature.h"
+#include "ifa/motion.h"
+#include "ifa/progress.h"
+#include "ifa/result.h"
+
+namespace ifa {
+
+/// What is to be synchronised, and how. The defaults are those of `ifa sync`.
+struct SynchronizeSettings {
+  std::filesystem::path sound;   ///< sound file, or a signature in JSON
+  std::filesystem::path labels;  ///< Audacity labels; empty: the contacts are detected
+  std::string object;            ///< name in the library, or path of an object file
+  std::string surface;           ///< empty: the object's default
+  std::string planner = "shoot";
+  std::filesystem::path objects;  ///< folder of the library; empty: the program's own
+  std::uint64_t seed = 1;
+  int takes = 1;                ///< different motions wanted, 1 to 32
+  double timeLimitSeconds = 0;  ///< cuts the search off; 0: never
+  double energyGain = 0;        ///< share of energy that a contact may add; 0 in nature
+  bool assumeTerminal = true;   ///< an ending is terminal unless labels or signature say otherwise
+  double preRollSeconds = 0.5;  ///< flight shown before the first contact
+};
+
+/// The motions found for one sound, best first; where none is acceptable, the best partial one,
+/// with `success` false and `failure` saying why.
+struct Synchronization {
+  ContactSignature signature;  ///< the targets
+  std::vector<Motion> takes;   ///< at least one
+  bool interrupted = false;    ///< asked to stop before all takes were found
+};
+
+/// Files of one motion; motion.json is always among them.
+enum class OutputFormat {
+  kJson,  ///< motion.json
+  kGlb,   ///< motion.glb
+};
+
+/// Finds motions whose contacts fall on the contacts of the sound (docs/method.md).
+/// Errors: kBadInput for anything in the settings that cannot be used; kInterrupted when asked to
+/// stop before a motion was found. A search that finds nothing acceptable is no error here.
+[[nodiscard]] Result<Synchronization> synchronize(const SynchronizeSettings& settings,
+                                                  const Progress& progress = {});
+
+/// The same, written to `folder` (docs/file-formats.md): motion.json, sound.wav, timeline.svg, the
+/// object with its mesh, and what `formats` names; several takes go to take-1/, take-2/ and so on.
+/// Files appear only when all is done; those of an earlier run are replaced.
+/// Errors: as above, and kBadInput when the folder cannot be written (told before the search).
+[[nodiscard]] Result<Synchronization> synchronizeToFolder(const SynchronizeSettings& settings,
+                                                          const std::filesystem::path& folder,
+                                                          const std::set<OutputFormat>& formats,
+                                                          const Progress& progress = {});
+
+}  // namespace ifa
