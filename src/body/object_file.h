@@ -8,14 +8,11 @@
 #include <string_view>
 #include <vector>
 
+#include "base/paths.h"  // objectsFolder()
 #include "body/body.h"
 #include "ifa/result.h"
 
 namespace ifa {
-
-/// Folder of the library of objects: the variable IFA_OBJECTS, else ../share/inverse-foley/objects
-/// beside an installed program, else objects/ of the source tree.
-[[nodiscard]] std::filesystem::path objectsFolder();
 
 /// Names of the objects in objectsFolder(), in natural order (d6 before d10).
 [[nodiscard]] Result<std::vector<std::string>> listObjects();
