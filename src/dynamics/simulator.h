@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "body/body.h"
+#include "dynamics/body_model.h"
 #include "model/contact_step.h"
 #include "model/rigid_state.h"
 
@@ -23,5 +24,8 @@ struct DropResult {
 /// Thread safe.
 [[nodiscard]] DropResult simulateDrop(const Body& body, const SurfaceProperties& surface,
                                       const RigidState& start, double timeLimit);
+/// The same for a model made beforehand; share it when many drops of one body are simulated.
+[[nodiscard]] DropResult simulateDrop(const BodyModel& model, const RigidState& start,
+                                      double timeLimit);
 
 }  // namespace ifa

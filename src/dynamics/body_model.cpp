@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dynamics/body_model.h"
+
+#include <algorithm>
+
+namespace ifa {
+
+BodyModel::BodyModel(const Body& body, const SurfaceProperties& surfaceIn,
+                     const KernelSettings& kernel)
+    : mass(body.mass), inverseMass(1 / body.mass), surface(surfaceIn), settings(kernel) {
+  radius = 0;
+  for (const Eigen::Vector3d& vertex : body.hull) {
+    const Eigen::Vector3d p = body.bodyFromPrincipal.transpose() * vertex;
+    x.push_back(p.x());
+    y.push_back(p.y());
+    z.push_back(p.z());
+    radius = std::max(radius, p.norm());
+  }
+  Eigen::Vector3d moments = body.principalMoments;
+  isotropic = moments.maxCoeff() - moments.minCoeff() < 1e-6 * moments.maxCoeff();
+  if (isotropic) moments.setConstant(moments.mean());
+  inertia = {moments.x(), moments.y(), moments.z()};
+  inverseInertia = {1 / inertia.x, 1 / inertia.y, 1 / inertia.z};
+  euler = {(inertia.y - inertia.z) / inertia.x, (inertia.z - inertia.x) / inertia.y,
+           (inertia.x - inertia.y) / inertia.z};
+  slop = std::max(1e-5, 1e-3 * radius);
+}
+
+}  // namespace ifa

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the kernel needs to know of a body and a surface, laid out for its loops.
+#pragma once
+
+#include <vector>
+
+#include "body/body.h"
+#include "dynamics/lane.h"
+
+namespace ifa {
+
+/// Constants of the stepping scheme (docs/dynamics.md gives the reasons).
+struct KernelSettings {
+  double step = 1e-3;         ///< s, longest step in contact
+  double stepAngle = 0.03;    ///< rad, largest turn in one step in contact
+  double bounceSpeed = 0.02;  ///< m/s, slower impacts do not bounce
+  double restSpeed = 0.02;    ///< m/s, kinetic speed under which a supported body is at rest
+  double segmentAngle = 0.4;  ///< rad, turn covered by one series of a flight
+  int iterations = 12;        ///< sweeps of the contact solver, at most
+  int impactIterations = 30;  ///< likewise for an impact
+};
+
+/// Body and surface in principal axes. Immutable once made; share it between threads.
+struct BodyModel {
+  BodyModel(const Body& body, const SurfaceProperties& surface, const KernelSettings& kernel = {});
+
+  std::vector<double> x, y, z;  ///< hull vertices, principal frame, m
+  double mass, inverseMass;
+  Vec<double> inertia, inverseInertia;  ///< principal moments
+  Vec<double> euler;                    ///< (I2 - I3) / I1 and cyclic
+  bool isotropic;                       ///< all moments equal: spin is constant in flight
+  double radius;                        ///< m
+  double slop;                          ///< gap that counts as touching, m
+  SurfaceProperties surface;
+  KernelSettings settings;
+};
+
+}  // namespace ifa

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// Impulses at the touching vertices: non-penetration, restitution and Coulomb friction by projected
+// Gauss-Seidel with accumulated, warm-started impulses.
+#pragma once
+
+#include <algorithm>
+
+#include "dynamics/body_model.h"
+#include "dynamics/lane.h"
+
+namespace ifa {
+
+/// Inverse inertia in the world frame, symmetric.
+template <class R>
+struct WorldInertia {
+  R xx, xy, xz, yy, yz, zz;
+
+  WorldInertia(const BodyModel& body, const Rotation<R>& rotation) {
+    const R a(body.inverseInertia.x);
+    if (body.isotropic) {
+      xx = yy = zz = a;
+      xy = xz = yz = R(0.0);
+      return;
+    }
+    const R b(body.inverseInertia.y), c(body.inverseInertia.z);
+    const auto& r = rotation.rows;
+    const auto entry = [&](int i, int j) {
+      return a * r[i].x * r[j].x + b * r[i].y * r[j].y + c * r[i].z * r[j].z;
+    };
+    xx = entry(0, 0);
+    xy = entry(0, 1);
+    xz = entry(0, 2);
+    yy = entry(1, 1);
+    yz = entry(1, 2);
+    zz = entry(2, 2);
+  }
+  [[nodiscard]] Vec<R> operator*(const Vec<R>& v) const {
+    return {xx * v.x + xy * v.y + xz * v.z, xy * v.x + yy * v.y + yz * v.z,
+            xz * v.x + yz * v.y + zz * v.z};
+  }
+};
+
+/// One touching vertex.
+template <class R>
+struct ContactPoint {
+  int vertex = -1;
+  Vec<R> r{};                        ///< from the centre of mass, world frame, m
+  R bound{};                         ///< least normal velocity allowed afterwards, m/s
+  Vec<R> impulse{};                  ///< accumulated, N s
+  Vec<R> turnX{}, turnY{}, turnZ{};  ///< change of spin by a unit impulse along each axis
+  R massX{}, massY{}, massZ{};       ///< effective masses along each axis, kg
+};
+
+/// Up to kMaxPoints contacts of one body with the ground, and the solver for their impulses.
+template <class R>
+class ContactSolver {
+ public:
+  static constexpr int kMaxPoints = 8;
+
+  int count = 0;
+  ContactPoint<R> points[kMaxPoints];
+
+  /// Changes `velocity` and `spin` (world frame) so that every point's normal velocity is at least
+  /// its bound and friction opposes sliding. The points' impulses are where it starts from.
+  void solve(const BodyModel& body, const Rotation<R>& rotation, int sweeps, Vec<R>& velocity,
+             Vec<R>& spin) {
+    prepare(body, rotation);
+    for (int k = 0; k < count; ++k) apply(body, points[k], points[k].impulse, velocity, spin);
+    const R small = R(1e-6) * R(body.mass);
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
+      R change(0.0);
+      for (int k = 0; k < count; ++k) {
+        change = laneMax(change, relax(body, points[k], velocity, spin));
+      }
+      if (!anyLane(change > small)) break;
+    }
+  }
+
+  /// Sum of all impulses, world frame, N s.
+  [[nodiscard]] Vec<R> total() const {
+    Vec<R> sum{};
+    for (int k = 0; k < count; ++k) sum = sum + points[k].impulse;
+    return sum;
+  }
+
+ private:
+  void prepare(const BodyModel& body, const Rotation<R>& rotation) {
+    const WorldInertia<R> inverse(body, rotation);
+    const R zero(0.0), inverseMass(body.inverseMass), one(1.0);
+    for (int k = 0; k < count; ++k) {
+      ContactPoint<R>& p = points[k];
+      p.turnX = inverse * Vec<R>{zero, p.r.z, zero - p.r.y};
+      p.turnY = inverse * Vec<R>{zero - p.r.z, zero, p.r.x};
+      p.turnZ = inverse * Vec<R>{p.r.y, zero - p.r.x, zero};
+      p.massX = one / (inverseMass + p.turnX.y * p.r.z - p.turnX.z * p.r.y);
+      p.massY = one / (inverseMass + p.turnY.z * p.r.x - p.turnY.x * p.r.z);
+      p.massZ = one / (inverseMass + p.turnZ.x * p.r.y - p.turnZ.y * p.r.x);
+    }
+  }
+
+  static void apply(const BodyModel& body, const ContactPoint<R>& p, const Vec<R>& impulse,
+                    Vec<R>& velocity, Vec<R>& spin) {
+    velocity = velocity + impulse * R(body.inverseMass);
+    spin = spin + p.turnX * impulse.x + p.turnY * impulse.y + p.turnZ * impulse.z;
+  }
+
+  /// One Gauss-Seidel visit; returns the size of the change.
+  static R relax(const BodyModel& body, ContactPoint<R>& p, Vec<R>& velocity, Vec<R>& spin) {
+    const R zero(0.0);
+    const R normal = velocity.z + spin.x * p.r.y - spin.y * p.r.x;
+    const R pressed = laneMax(zero, p.impulse.z - (normal - p.bound) * p.massZ);
+    const R push = pressed - p.impulse.z;
+    velocity.z = velocity.z + push * R(body.inverseMass);
+    spin = spin + p.turnZ * push;
+
+    const R slideX = velocity.x + spin.y * p.r.z - spin.z * p.r.y;
+    const R slideY = velocity.y + spin.z * p.r.x - spin.x * p.r.z;
+    R dragX = p.impulse.x - slideX * p.massX, dragY = p.impulse.y - slideY * p.massY;
+    const R limit = R(body.surface.friction) * pressed;
+    const R size2 = dragX * dragX + dragY * dragY;
+    if (anyLane(size2 > limit * limit)) {
+      const R scale = select(size2 > limit * limit, limit / laneSqrt(size2), R(1.0));
+      dragX = dragX * scale;
+      dragY = dragY * scale;
+    }
+    const Vec<R> change = {dragX - p.impulse.x, dragY - p.impulse.y, zero};
+    apply(body, p, change, velocity, spin);
+    p.impulse = {dragX, dragY, pressed};
+    return laneAbs(push) + laneAbs(change.x) + laneAbs(change.y);
+  }
+};
+
+}  // namespace ifa

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ballistic flight, exact: parabola, torque-free rotation, and the first vertex that touches the
+// ground.
+#pragma once
+
+#include "dynamics/body_model.h"
+#include "dynamics/free_rotation.h"
+#include "dynamics/kernel_state.h"
+
+namespace ifa {
+
+/// Height of one vertex over a segment as a cubic in s = 0..1 (Hermite), and its first way down
+/// through 0. Over a turn of a the cubic is within r a^4 / 384 of the truth.
+template <class R>
+struct HeightCubic {
+  R h0, c1, c2, c3;
+
+  HeightCubic(R startHeight, R startRate, R endHeight, R endRate, R length) {
+    h0 = startHeight;
+    c1 = startRate * length;
+    const R end = endRate * length, rise = endHeight - startHeight;
+    c2 = R(3.0) * rise - R(2.0) * c1 - end;
+    c3 = c1 + end - R(2.0) * rise;
+  }
+  [[nodiscard]] R at(R s) const { return ((c3 * s + c2) * s + c1) * s + h0; }
+  [[nodiscard]] R slope(R s) const { return (R(3.0) * c3 * s + R(2.0) * c2) * s + c1; }
+
+  /// First s in [0, 1] at which the height falls through zero, 2 if there is none. A vertex that
+  /// starts at or just under zero and rises must fall again first.
+  [[nodiscard]] R firstTouch() const;
+};
+
+template <>
+inline double HeightCubic<double>::firstTouch() const {
+  const double discriminant = c2 * c2 - 3 * c1 * c3;
+  const double root = discriminant > 0 ? std::sqrt(discriminant) : 0;
+  double low = 0;
+  if (c1 > 0) {
+    const double down = root - c2;  // highest point: c1 / (root - c2)
+    if (discriminant <= 0 || down <= c1) return 2;
+    low = c1 / down;
+  }
+  if (at(low) <= 0) return low;
+  double high = 1;
+  if (at(1) >= 0) {
+    if (discriminant <= 0) return 2;
+    high = c2 > 0 ? -c1 / (c2 + root) : (c3 > 0 ? (root - c2) / (3 * c3) : 2);
+    if (!(high > low && high < 1) || at(high) >= 0) return 2;
+  }
+  double s = 0.5 * (low + high);
+  for (int i = 0; i < 30; ++i) {
+    const double height = at(s);
+    (height > 0 ? low : high) = s;
+    const double rate = slope(s);
+    double next = rate < 0 ? s - height / rate : low;
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    if (std::fabs(next - s) < 1e-9) return next;
+    s = next;
+  }
+  return s;
+}
+
+/// One segment of a flight: positions and rates of the two ends of it.
+class FlightSegment {
+ public:
+  FlightSegment(const BodyModel& body, const KernelState<double>& start, double longest)
+      : body_(body), start_(start), rotation_(body, {start.q, start.w}) {
+    const double rate = std::sqrt(dot(start.w, start.w));
+    length_ = body.settings.segmentAngle / laneMax(rate, 1.0);
+    if (longest < length_) length_ = longest;
+  }
+
+  [[nodiscard]] double length() const { return length_; }
+
+  /// State `t` seconds after the segment's start.
+  [[nodiscard]] KernelState<double> at(double t) const {
+    const Spin<double> spin = rotation_.at(t);
+    KernelState<double> s = start_;
+    s.time += t;
+    s.position = s.position + s.velocity * t;
+    s.position.z -= 0.5 * kGravity * t * t;
+    s.velocity.z -= kGravity * t;
+    s.q = spin.q;
+    s.w = spin.w;
+    return s;
+  }
+
+  /// Seconds from the start to the first touch; larger than length() when nothing touches.
+  [[nodiscard]] double firstTouch() const {
+    const KernelState<double> end = at(length_);
+    // A parabola is lowest at its ends.
+    if (laneMin(start_.position.z, end.position.z) > body_.radius) return 2 * length_;
+    const Heights a(start_), b(end);
+    const double spin2 = dot(start_.w, start_.w);
+    const double dip = 0.125 * length_ * length_ * (kGravity + 2 * body_.radius * spin2);
+    double first = 2;
+    std::size_t lowest = 0;
+    for (std::size_t i = 0; i < body_.x.size(); ++i) {
+      const Vec<double> p = {body_.x[i], body_.y[i], body_.z[i]};
+      const double h0 = a.height(p), h1 = b.height(p);
+      if (laneMin(h0, h1) > dip) continue;
+      const double s = HeightCubic<double>(h0, a.rate(p), h1, b.rate(p), length_).firstTouch();
+      if (s < first) {
+        first = s;
+        lowest = i;
+      }
+    }
+    return first > 1 ? 2 * length_ : refined(first * length_, lowest);
+  }
+
+ private:
+  /// Heights of body points and their rates in one state.
+  struct Heights {
+    explicit Heights(const KernelState<double>& s) : z(s.position.z), vz(s.velocity.z) {
+      up = Rotation<double>(s.q).rows[2];
+      upRate = cross(up, s.w);
+    }
+    [[nodiscard]] double height(const Vec<double>& p) const { return z + dot(p, up); }
+    [[nodiscard]] double rate(const Vec<double>& p) const { return vz + dot(p, upRate); }
+    double z, vz;
+    Vec<double> up, upRate;
+  };
+
+  [[nodiscard]] double refined(double t, std::size_t vertex) const {
+    const Vec<double> p = {body_.x[vertex], body_.y[vertex], body_.z[vertex]};
+    for (int i = 0; i < 2; ++i) {
+      const Heights heights(at(t));
+      const double rate = heights.rate(p);
+      if (rate > -1e-4) break;
+      const double next = t - heights.height(p) / rate;
+      if (!(next > 0 && next < length_)) break;
+      t = next;
+    }
+    return t;
+  }
+
+  const BodyModel& body_;
+  KernelState<double> start_;
+  FreeRotation<double> rotation_;
+  double length_;
+};
+
+}  // namespace ifa

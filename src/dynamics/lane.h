@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// The number type over which the kernel is written once: one lane is a double, many lanes a wide
+// register. Only operations whose bits are the same on every processor are offered (+ - * / sqrt,
+// comparisons).
+#pragma once
+
+#include <cmath>
+
+namespace ifa {
+
+/// Mask type of a lane type.
+template <class R>
+struct LaneTraits;
+template <>
+struct LaneTraits<double> {
+  using Mask = bool;
+};
+template <class R>
+using LaneMask = typename LaneTraits<R>::Mask;
+
+inline bool anyLane(bool mask) { return mask; }
+inline double select(bool mask, double yes, double no) { return mask ? yes : no; }
+inline double laneMin(double a, double b) { return a < b ? a : b; }
+inline double laneMax(double a, double b) { return a > b ? a : b; }
+inline double laneSqrt(double a) { return std::sqrt(a); }
+inline double laneAbs(double a) { return std::fabs(a); }
+
+/// A vector of three lanes.
+template <class R>
+struct Vec {
+  R x{}, y{}, z{};
+};
+
+template <class R>
+Vec<R> operator+(const Vec<R>& a, const Vec<R>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class R>
+Vec<R> operator-(const Vec<R>& a, const Vec<R>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class R>
+Vec<R> operator*(const Vec<R>& a, R s) {
+  return {a.x * s, a.y * s, a.z * s};
+}
+template <class R>
+R dot(const Vec<R>& a, const Vec<R>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class R>
+Vec<R> cross(const Vec<R>& a, const Vec<R>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+template <class R>
+Vec<R> select(const LaneMask<R>& mask, const Vec<R>& yes, const Vec<R>& no) {
+  return {select(mask, yes.x, no.x), select(mask, yes.y, no.y), select(mask, yes.z, no.z)};
+}
+
+/// A quaternion w + x i + y j + z k.
+template <class R>
+struct Quat {
+  R w{}, x{}, y{}, z{};
+};
+
+/// Product with the pure quaternion of `v`: q (0, v).
+template <class R>
+Quat<R> timesPure(const Quat<R>& q, const Vec<R>& v) {
+  return {R(0.0) - q.x * v.x - q.y * v.y - q.z * v.z, q.w * v.x + q.y * v.z - q.z * v.y,
+          q.w * v.y + q.z * v.x - q.x * v.z, q.w * v.z + q.x * v.y - q.y * v.x};
+}
+template <class R>
+Quat<R> operator+(const Quat<R>& a, const Quat<R>& b) {
+  return {a.w + b.w, a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class R>
+Quat<R> operator*(const Quat<R>& a, R s) {
+  return {a.w * s, a.x * s, a.y * s, a.z * s};
+}
+template <class R>
+Quat<R> normalised(const Quat<R>& q) {
+  return q * (R(1.0) / laneSqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z));
+}
+template <class R>
+Quat<R> select(const LaneMask<R>& mask, const Quat<R>& yes, const Quat<R>& no) {
+  return {select(mask, yes.w, no.w), select(mask, yes.x, no.x), select(mask, yes.y, no.y),
+          select(mask, yes.z, no.z)};
+}
+
+/// A rotation matrix by rows: `rows[2]` is the world's z axis seen from the body.
+template <class R>
+struct Rotation {
+  Vec<R> rows[3];
+
+  explicit Rotation(const Quat<R>& q) {
+    const R xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z;
+    const R xy = q.x * q.y, xz = q.x * q.z, yz = q.y * q.z;
+    const R wx = q.w * q.x, wy = q.w * q.y, wz = q.w * q.z;
+    const R one(1.0), two(2.0);
+    rows[0] = {one - two * (yy + zz), two * (xy - wz), two * (xz + wy)};
+    rows[1] = {two * (xy + wz), one - two * (xx + zz), two * (yz - wx)};
+    rows[2] = {two * (xz - wy), two * (yz + wx), one - two * (xx + yy)};
+  }
+  /// Body to world.
+  [[nodiscard]] Vec<R> operator*(const Vec<R>& v) const {
+    return {dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)};
+  }
+  /// World to body.
+  [[nodiscard]] Vec<R> transposed(const Vec<R>& v) const {
+    return rows[0] * v.x + rows[1] * v.y + rows[2] * v.z;
+  }
+};
+
+}  // namespace ifa

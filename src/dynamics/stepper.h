@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// The kernel: one body, flight and contact in turn (docs/dynamics.md). Sampler, planner and replay
+// all step with this one class, so the same start gives the same bits to each.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "dynamics/body_model.h"
+#include "dynamics/contact_solver.h"
+#include "dynamics/flight.h"
+#include "dynamics/kernel_state.h"
+#include "model/contact_step.h"
+
+namespace ifa {
+
+/// What one call of Stepper::advance did.
+enum class Advance {
+  kFlight,   ///< flew one segment; nothing touched
+  kTouch,    ///< flew to a touch
+  kImpact,   ///< an impact: no time passed
+  kContact,  ///< a step in contact
+  kLift,     ///< left the ground: no time passed
+  kRest      ///< at rest
+};
+
+/// Not thread safe; make one per thread. The model must outlive it.
+class Stepper {
+ public:
+  explicit Stepper(const BodyModel& body);
+
+  /// Begins anew from `state`, with no memory of earlier contacts.
+  void start(const KernelState<double>& state);
+  /// As start(), with a restitution of its own for this run.
+  void start(const KernelState<double>& state, double restitution);
+  /// Does the next piece of motion; no flight or step passes `limit` (s).
+  Advance advance(double limit);
+
+  [[nodiscard]] const KernelState<double>& state() const { return state_; }
+  /// After kImpact and kContact: the state before, and the sum of impulses over all points, N s.
+  [[nodiscard]] const KernelState<double>& before() const { return before_; }
+  [[nodiscard]] const Vec<double>& impulse() const { return impulse_; }
+  [[nodiscard]] bool touching() const { return phase_ != Phase::kFlight; }
+  [[nodiscard]] ContactStep contactStep() const;
+
+  /// Kinetic energy per mass, m^2/s^2, and total energy (height above the ground plane), J.
+  [[nodiscard]] double kineticPerMass(const KernelState<double>& s) const;
+  [[nodiscard]] double energy(const KernelState<double>& s) const;
+
+ private:
+  Advance fly(double limit);
+  Advance touch(double limit);
+  Advance impact(const Rotation<double>& rotation);
+  Advance contact(const Rotation<double>& rotation, double limit);
+  void measure(const Rotation<double>& rotation, const Vec<double>& velocity, const Vec<double>& w);
+  double chooseStep(double limit) const;
+  void gather(const Rotation<double>& rotation, double reach, bool atOnce);
+  void addPoint(const Rotation<double>& rotation, std::size_t vertex);
+  void thin(const Rotation<double>& rotation);
+  double overshoot(const Rotation<double>& rotation, const Vec<double>& velocity,
+                   const Vec<double>& spin, double step) const;
+  void rollingFriction(double step, const Rotation<double>& rotation, Vec<double>& spin) const;
+  void move(const Rotation<double>& rotation, const Vec<double>& velocity, const Vec<double>& spin,
+            double step);
+  void warmStart(double scale);
+  bool supported() const;
+
+  const BodyModel& body_;
+  double restitution_;
+  Phase phase_ = Phase::kFlight;
+  KernelState<double> state_, before_;
+  Vec<double> impulse_{};
+  std::vector<double> gap_, rate_;  ///< of every hull vertex: height, m, and its rate, m/s
+  std::vector<int> candidates_;
+  ContactSolver<double> solver_;
+  std::array<ContactPoint<double>, ContactSolver<double>::kMaxPoints> last_;
+  int lastCount_ = 0;
+  double lastStep_ = 0, lastPress_ = 0;
+  double quietSince_ = -1;
+  int impactsHere_ = 0, stuck_ = 0;
+};
+
+}  // namespace ifa
