@@ -1,12 +1,160 @@
 // SPDX-License-Identifier: Apache-2.0
 // `ifa sync`: sound in, synchronised motion out.
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <set>
+
 #include "command.h"
+#include "ifa/synchronize.h"
+#include "pipeline/batch.h"
 
 namespace ifa::cli {
 
+namespace fs = std::filesystem;
+
+namespace {
+
+struct SyncOptions {
+  SynchronizeSettings settings;
+  std::string formats = "json,glb";
+  fs::path output;
+  bool noTerminal = false;
+};
+
+Result<std::set<OutputFormat>> parseFormats(const std::string& list) {
+  static const std::map<std::string, OutputFormat> kKnown = {{"json", OutputFormat::kJson},
+                                                             {"glb", OutputFormat::kGlb}};
+  std::set<OutputFormat> formats;
+  for (const auto& name : CLI::detail::split(list, ',')) {
+    const auto found = kKnown.find(name);
+    if (found == kKnown.end()) {
+      const std::string what = name == "mp4" ? "films (mp4) are not made by this version"
+                                             : "\"" + name + "\" is not a format";
+      return tl::unexpected<Error>({ErrorCode::kUsage, what, "--formats", "choose from json, glb"});
+    }
+    formats.insert(found->second);
+  }
+  return formats;
+}
+
+int noMotion(CommandContext& context, const std::string& message, const fs::path& place) {
+  return context.fail({ErrorCode::kNoMotion, message, place.string(), {}});
+}
+
+int interrupted(CommandContext& context, const std::string& kept) {
+  return context.fail({ErrorCode::kInterrupted, "interrupted; " + kept, {}, {}});
+}
+
+void showTake(Console& console, const Motion& motion, const fs::path& folder) {
+  console.result(fmt::format("{} on {}: {}", motion.object.name, motion.object.surface,
+                             motion.success ? describe(motion) : "no acceptable motion"));
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().stem() == "motion" || entry.path().stem() == "timeline" ||
+        entry.path().filename() == motion.sound.file) {
+      console.result("  " + entry.path().string());
+    }
+  }
+}
+
+int syncSound(const SyncOptions& options, const std::set<OutputFormat>& formats,
+              CommandContext& context) {
+  const auto result =
+      synchronizeToFolder(options.settings, options.output, formats, context.progress);
+  if (!result) return context.fail(result.error());
+  const auto& takes = result->takes;
+  for (std::size_t i = 0; i < takes.size(); ++i) {
+    const bool several = takes.size() > 1;
+    showTake(context.console, takes[i],
+             several ? options.output / fmt::format("take-{}", i + 1) : options.output);
+  }
+  if (result->interrupted) return interrupted(context, "what was found is kept");
+  if (!takes.front().success) {
+    return noMotion(context, takes.front().failure, options.settings.sound);
+  }
+  return context.succeed(options.output.string());
+}
+
+int syncFolder(const SyncOptions& options, const std::set<OutputFormat>& formats,
+               CommandContext& context) {
+  if (!options.settings.labels.empty()) {
+    return context.fail({ErrorCode::kUsage, "does not go with a folder of sounds", "--labels",
+                         "put NAME.txt beside NAME.wav"});
+  }
+  const auto sounds = findSounds(options.settings.sound);
+  if (!sounds) return context.fail(sounds.error());
+  std::vector<BatchResult> failures;
+  const auto tell = [&](const BatchResult& result) {
+    const bool failed = result.outcome == BatchOutcome::kFailed;
+    context.console.result(result.item.name + ": " + (failed ? "FAILED" : result.message));
+    if (failed) failures.push_back(result);
+  };
+  const auto results =
+      synchronizeAll(*sounds, options.settings, options.output, formats, context.progress, tell);
+  if (context.progress.stopRequested()) return interrupted(context, "what was finished is kept");
+  context.console.result(
+      fmt::format("{} of {} solved", results.size() - failures.size(), results.size()));
+  for (const auto& failure : failures) {
+    context.console.result("failed: " + failure.item.name + ": " + failure.message);
+  }
+  if (failures.empty()) return context.succeed(options.output.string());
+  return noMotion(context, fmt::format("{} of {} sounds failed", failures.size(), results.size()),
+                  options.settings.sound);
+}
+
+int runSync(SyncOptions options, CommandContext& context) {
+  if (options.noTerminal) options.settings.terminal = false;
+  const auto formats = parseFormats(options.formats);
+  if (!formats) return context.fail(formats.error());
+  std::error_code code;
+  const bool isFolder = fs::is_directory(options.settings.sound, code);
+  return isFolder ? syncFolder(options, *formats, context) : syncSound(options, *formats, context);
+}
+
+void addSearchOptions(CLI::App& command, SyncOptions& options) {
+  auto& settings = options.settings;
+  command.add_option("--surface", settings.surface, "surface of the object file");
+  command.add_option("--planner", settings.planner, "shoot")->capture_default_str();
+  command.add_option("--takes", settings.takes, "number of different motions, best first")
+      ->check(CLI::Range(1, kMaxTakes))
+      ->capture_default_str();
+  command.add_option("--seed", settings.seed, "seed of the search")->capture_default_str();
+  command.add_option("--time-limit", settings.timeLimitSeconds, "seconds; cuts the search off")
+      ->check(CLI::Range(0.001, 1e6));
+  command
+      .add_option("--energy-gain", settings.energyGain,
+                  "share of energy that a contact may add, for music")
+      ->check(CLI::Range(0.0, 10.0));
+  command.add_flag("--no-terminal", options.noTerminal,
+                   "the last contact does not bring the object to rest");
+}
+
+}  // namespace
+
 void addSyncCommand(CLI::App& app, CommandContext& context) {
-  static_cast<void>(app);
-  static_cast<void>(context);
+  auto options = std::make_shared<SyncOptions>();
+  CLI::App* command = app.add_subcommand("sync", "make a motion that fits a contact sound");
+  command
+      ->add_option("SOUND", options->settings.sound,
+                   "WAV, FLAC, Ogg or MP3; a signature in JSON; or a folder of them")
+      ->required();
+  command->add_option("--object", options->settings.object, "name (see ifa objects) or object file")
+      ->required();
+  command->add_option("--labels", options->settings.labels,
+                      "Audacity labels of the contacts (default: they are detected)");
+  command->add_option("-o,--out", options->output, "folder for the results")->required();
+  addSearchOptions(*command, *options);
+  command
+      ->add_option("--pre-roll", options->settings.preRollSeconds,
+                   "seconds of flight before the first contact")
+      ->check(CLI::Range(0.0, 10.0))
+      ->capture_default_str();
+  command->add_option("--formats", options->formats, "list of json, glb")->capture_default_str();
+  command->callback([options, &context] {
+    context.action = [options, &context] { return runSync(*options, context); };
+  });
 }
 
 }  // namespace ifa::cli

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -15,6 +16,9 @@
 
 namespace ifa {
 
+/// Most motions that can be asked for at once.
+inline constexpr int kMaxTakes = 32;
+
 /// What is to be synchronised, and how. The defaults are those of `ifa sync`.
 struct SynchronizeSettings {
   std::filesystem::path sound;   ///< sound file, or a signature in JSON
@@ -24,11 +28,11 @@ struct SynchronizeSettings {
   std::string planner = "shoot";
   std::filesystem::path objects;  ///< folder of the library; empty: the program's own
   std::uint64_t seed = 1;
-  int takes = 1;                ///< different motions wanted, 1 to 32
-  double timeLimitSeconds = 0;  ///< cuts the search off; 0: never
-  double energyGain = 0;        ///< share of energy that a contact may add; 0 in nature
-  bool assumeTerminal = true;   ///< an ending is terminal unless labels or signature say otherwise
-  double preRollSeconds = 0.5;  ///< flight shown before the first contact
+  int takes = 1;                 ///< different motions wanted, 1 to kMaxTakes
+  double timeLimitSeconds = 0;   ///< cuts the search off; 0: never
+  double energyGain = 0;         ///< share of energy that a contact may add; 0 in nature
+  std::optional<bool> terminal;  ///< overrides what labels or signature say of the ending
+  double preRollSeconds = 0.5;   ///< flight shown before the first contact
 };
 
 /// The motions found for one sound, best first; where none is acceptable, the best partial one,

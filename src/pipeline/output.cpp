@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/output.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "export/glb.h"
+#include "export/motion_json.h"
+#include "pipeline/copy_object.h"
+#include "render/timeline.h"
+#include "sound/sound.h"
+
+namespace ifa {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kSoundName = "sound.wav";
+
+// Silence that `motion` needs in front of the sound, in samples: it begins before its first
+// contact.
+std::size_t silenceBefore(const Motion& motion, const Heard& heard) {
+  const double begin = motion.trajectory.empty() ? 0 : motion.trajectory.front().time;
+  const double missing = -begin - heard.signature.firstContact;
+  return missing <= 0 ? 0 : static_cast<std::size_t>(std::ceil(missing * heard.sound->rate));
+}
+
+Result<void> writeSound(const fs::path& folder, const Motion& motion, const Heard& heard) {
+  if (!heard.sound) return writeTimeline(folder / "timeline.svg", motion, Sound{});
+  const Sound used = withLeadingSilence(*heard.sound, silenceBefore(motion, heard));
+  if (auto written = writeWav(folder / kSoundName, used); !written) return written;
+  return writeTimeline(folder / "timeline.svg", motion, used);
+}
+
+Result<void> writeTake(const fs::path& folder, const Motion& motion, const Body& body,
+                       const Heard& heard, const std::set<OutputFormat>& formats) {
+  if (auto written = copyObject(body.definition, folder); !written) return written;
+  if (auto written = writeSound(folder, motion, heard); !written) return written;
+  if (formats.count(OutputFormat::kGlb) > 0) {
+    if (auto written = writeGlb(folder / "motion.glb", motion, body); !written) return written;
+  }
+  return writeMotionJson(folder / "motion.json", motion);
+}
+
+std::string takeName(std::size_t index) { return "take-" + std::to_string(index + 1); }
+
+}  // namespace
+
+void placeInSound(Motion& motion, const Heard& heard) {
+  motion.sound = {};
+  if (heard.sound) {
+    const auto silence = silenceBefore(motion, heard);
+    const double rate = heard.sound->rate;
+    const auto samples = static_cast<double>(heard.sound->samples.size() + silence);
+    motion.sound = {kSoundName, heard.sound->rate, samples / rate,
+                    heard.signature.firstContact + static_cast<double>(silence) / rate};
+  } else {
+    const double begin = motion.trajectory.empty() ? 0 : motion.trajectory.front().time;
+    motion.sound.firstContact = std::max(heard.signature.firstContact, -begin);
+  }
+}
+
+Result<void> writeTakes(const fs::path& folder, const std::vector<Motion>& takes, const Body& body,
+                        const Heard& heard, const std::set<OutputFormat>& formats) {
+  if (takes.size() == 1) return writeTake(folder, takes.front(), body, heard, formats);
+  for (std::size_t i = 0; i < takes.size(); ++i) {
+    const fs::path place = folder / takeName(i);
+    std::error_code code;
+    fs::create_directory(place, code);
+    if (code) return badInput("cannot be made: " + code.message(), place.string());
+    if (auto written = writeTake(place, takes[i], body, heard, formats); !written) return written;
+  }
+  return {};
+}
+
+std::vector<fs::path> outputNames() {
+  std::vector<fs::path> names;
+  const auto add = [&](const fs::path& folder) {
+    for (const char* name : {"motion.json", "motion.glb", "timeline.svg", kSoundName}) {
+      names.push_back(folder / name);
+    }
+  };
+  add({});
+  for (std::size_t i = 0; i < kMaxTakes; ++i) add(takeName(i));
+  return names;
+}
+
+}  // namespace ifa

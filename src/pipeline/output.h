@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Last stages of a synchronisation: the files (docs/file-formats.md).
+#pragma once
+
+#include <filesystem>
+#include <set>
+
+#include "body/body.h"
+#include "ifa/synchronize.h"
+#include "pipeline/hear.h"
+
+namespace ifa {
+
+/// Sets `motion.sound` to the file that writeTakes writes: the sound as heard, after as much
+/// silence as the motion needs to begin at or after its first sample.
+void placeInSound(Motion& motion, const Heard& heard);
+
+/// Writes every take into `folder`, or into take-1/, take-2/... of it when there are several.
+/// Errors: those of the writers.
+[[nodiscard]] Result<void> writeTakes(const std::filesystem::path& folder,
+                                      const std::vector<Motion>& takes, const Body& body,
+                                      const Heard& heard, const std::set<OutputFormat>& formats);
+
+/// Names, relative to an output folder, that a run may leave there and a later run replaces.
+[[nodiscard]] std::vector<std::filesystem::path> outputNames();
+
+}  // namespace ifa

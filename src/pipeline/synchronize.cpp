@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+// The stages of `ifa sync`, one call each.
+#include "ifa/synchronize.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "audit/audit.h"
+#include "base/staged_folder.h"
+#include "base/version.h"
+#include "body/object_file.h"
+#include "motion/build_motion.h"
+#include "pipeline/copy_object.h"
+#include "pipeline/hear.h"
+#include "pipeline/output.h"
+#include "planner/planner.h"
+
+namespace ifa {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+tl::unexpected<Error> usage(std::string message, std::string place, std::string remedy) {
+  return tl::unexpected<Error>(
+      {ErrorCode::kUsage, std::move(message), std::move(place), std::move(remedy)});
+}
+
+Result<void> checkRange(double value, double low, double high, const char* place) {
+  if (std::isfinite(value) && value >= low && value <= high) return {};
+  return usage("is out of range", place,
+               "give a number from " + std::to_string(low) + " to " + std::to_string(high));
+}
+
+Result<void> checkSettings(const SynchronizeSettings& settings) {
+  if (auto good = checkRange(settings.takes, 1, kMaxTakes, "takes"); !good) return good;
+  if (auto good = checkRange(settings.timeLimitSeconds, 0, 1e6, "time limit"); !good) return good;
+  if (auto good = checkRange(settings.energyGain, 0, 10, "energy gain"); !good) return good;
+  return checkRange(settings.preRollSeconds, 0, 10, "pre-roll");
+}
+
+// The library that the settings name goes before the program's own.
+Result<Body> loadBody(const SynchronizeSettings& settings) {
+  const fs::path own = settings.objects / (settings.object + ".json");
+  std::error_code code;
+  if (!settings.objects.empty() && fs::is_regular_file(own, code)) return loadObject(own.string());
+  return loadObject(settings.object);
+}
+
+Result<std::string> chooseSurface(const SynchronizeSettings& settings,
+                                  const ObjectDefinition& object) {
+  const auto& name = settings.surface.empty() ? object.defaultSurface : settings.surface;
+  if (object.surfaces.count(name) > 0) return name;
+  std::string known;
+  for (const auto& [other, properties] : object.surfaces) {
+    known += (known.empty() ? "" : ", ") + other;
+  }
+  return badInput("has no surface \"" + name + "\"", object.name, "its surfaces: " + known);
+}
+
+// All that the search needs, and what the files are made of afterwards.
+struct Job {
+  Body body;
+  std::string surface;
+  Heard heard;
+  std::unique_ptr<Planner> planner;
+};
+
+Result<Job> prepare(const SynchronizeSettings& settings) {
+  if (auto good = checkSettings(settings); !good) return tl::unexpected(good.error());
+  auto planner = makePlanner(settings.planner);
+  if (!planner) return tl::unexpected(planner.error());
+  auto body = loadBody(settings);
+  if (!body) return tl::unexpected(body.error());
+  auto surface = chooseSurface(settings, body->definition);
+  if (!surface) return tl::unexpected(surface.error());
+  auto heard = hear(settings, body->definition.mergeGap);
+  if (!heard) return tl::unexpected(heard.error());
+  return Job{std::move(*body), std::move(*surface), std::move(*heard), std::move(*planner)};
+}
+
+PlanRequest makeRequest(const SynchronizeSettings& settings, const Job& job) {
+  PlanRequest request;
+  request.body = &job.body;
+  request.surface = job.body.definition.surfaces.at(job.surface);
+  request.signature = job.heard.signature;
+  request.settings.seed = settings.seed;
+  request.settings.takes = settings.takes;
+  request.settings.timeLimitSeconds = settings.timeLimitSeconds;
+  request.settings.energyGain = settings.energyGain;
+  return request;
+}
+
+// A plan that fails its audit is a bug of ours; it must not pass for a result.
+void auditTake(Motion& motion, const Body& body) {
+  if (!motion.success) return;
+  const auto report = audit(motion, body);
+  const auto failed = std::find_if(report.checks.begin(), report.checks.end(),
+                                   [](const AuditCheck& check) { return !check.passed; });
+  if (failed == report.checks.end()) return;
+  motion.success = false;
+  motion.failure = "the motion found does not hold its audit: " + failed->name + " is " +
+                   std::to_string(failed->worst) + " " + failed->unit + " at " +
+                   std::to_string(failed->time) + " s";
+}
+
+struct Search {
+  PlanRequest request;
+  std::vector<Plan> plans;
+  double seconds = 0;
+  bool interrupted = false;
+};
+
+Result<Search> search(const SynchronizeSettings& settings, const Job& job,
+                      const Progress& progress) {
+  Search found{makeRequest(settings, job), {}, 0, false};
+  const auto begin = std::chrono::steady_clock::now();
+  auto plans = job.planner->plan(found.request, progress);
+  if (!plans) return tl::unexpected(plans.error());
+  found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  found.plans = std::move(*plans);
+  found.interrupted = progress.stopRequested();
+  if (found.interrupted) {
+    // What was finished is kept; a search that was cut off says nothing about what is possible.
+    std::erase_if(found.plans, [](const Plan& plan) { return !plan.solved; });
+    if (found.plans.empty()) {
+      return tl::unexpected<Error>({ErrorCode::kInterrupted, "interrupted", {}, {}});
+    }
+  }
+  return found;
+}
+
+Result<Motion> makeTake(const SynchronizeSettings& settings, const Job& job, const Search& found,
+                        const Plan& plan) {
+  auto motion = buildMotion(found.request, plan, settings.preRollSeconds);
+  if (!motion) return motion;
+  motion->program = programVersion();
+  motion->seed = settings.seed;
+  motion->planner = settings.planner;
+  motion->object.surface = job.surface;
+  motion->object.mesh = copiedMeshName(job.body.definition);
+  motion->searchSeconds = found.seconds;
+  placeInSound(*motion, job.heard);
+  auditTake(*motion, job.body);
+  return motion;
+}
+
+Result<Synchronization> run(const SynchronizeSettings& settings, const Job& job,
+                            const Progress& progress) {
+  auto found = search(settings, job, progress);
+  if (!found) return tl::unexpected(found.error());
+  Synchronization result{job.heard.signature, {}, found->interrupted};
+  for (const Plan& plan : found->plans) {
+    auto motion = makeTake(settings, job, *found, plan);
+    if (!motion) return tl::unexpected(motion.error());
+    result.takes.push_back(std::move(*motion));
+  }
+  std::stable_partition(result.takes.begin(), result.takes.end(),
+                        [](const Motion& motion) { return motion.success; });
+  return result;
+}
+
+}  // namespace
+
+Result<Synchronization> synchronize(const SynchronizeSettings& settings, const Progress& progress) {
+  auto job = prepare(settings);
+  if (!job) return tl::unexpected(job.error());
+  return run(settings, *job, progress);
+}
+
+Result<Synchronization> synchronizeToFolder(const SynchronizeSettings& settings,
+                                            const fs::path& folder,
+                                            const std::set<OutputFormat>& formats,
+                                            const Progress& progress) {
+  auto job = prepare(settings);
+  if (!job) return tl::unexpected(job.error());
+  auto staged = StagedFolder::open(folder);
+  if (!staged) return tl::unexpected(staged.error());
+  auto result = run(settings, *job, progress);
+  if (!result) return result;
+  auto written = writeTakes(staged->path(), result->takes, job->body, job->heard, formats);
+  if (written) written = staged->commit("motion.json", outputNames());
+  if (!written) return tl::unexpected(written.error());
+  return result;
+}
+
+}  // namespace ifa
