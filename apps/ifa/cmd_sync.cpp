@@ -120,7 +120,9 @@ void addSearchOptions(CLI::App& command, SyncOptions& options) {
   command.add_option("--takes", settings.takes, "number of different motions, best first")
       ->check(CLI::Range(1, kMaxTakes))
       ->capture_default_str();
-  command.add_option("--seed", settings.seed, "seed of the search")->capture_default_str();
+  command.add_option("--seed", settings.seed, "seed of the search")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   command.add_option("--time-limit", settings.timeLimitSeconds, "seconds; cuts the search off")
       ->check(CLI::Range(0.001, 1e6));
   command
