@@ -14,18 +14,27 @@ struct DetectedContact {
   double start = 0;  ///< s in the sound file, where the attack begins
   double end = 0;    ///< s; equal to `start` for a discrete contact, later for a rattle or a roll
   double level = 0;  ///< dB relative to the loudest contact, <= 0
-  double rise = 0;   ///< dB by which the attack stands over what was there before it
+  double rise = 0;   ///< dB by which the attack stands over what was there before, mean over bands
 };
 
-/// See docs/detection.md for where each comes from and what it does.
+/// All that can be tuned; docs/detection.md tells how the defaults were found.
 struct DetectorSettings {
-  double minRise = 9;          ///< dB; less is not an attack. Higher: fewer, surer contacts
+  double minRise = 6.5;        ///< dB; a smaller rise is no attack. Higher: fewer, surer contacts
   double range = 45;           ///< dB under the loudest contact where listening stops
-  double minInterval = 0.003;  ///< s; two attacks that are closer are heard as one
-  double minDuration = 0.020;  ///< s; a contact that sounds on for less is discrete
+  double after = 0.002;        ///< s after a moment in which the attack's energy is taken
+  double before = 0.008;       ///< s before it that it is compared with; longer hides more echoes
+  double minInterval = 0.004;  ///< s; of two attacks that are closer the steeper one counts
+  double noiseMargin = 6;      ///< dB over the background below which nothing is heard
+  double leadIn = 30;          ///< dB under the loudest contact; the first one is not softer
+  double rattleRise = 2.5;     ///< dB; rises that, after the last contact, keep a rattle going
+  double rattleGap = 0.020;    ///< s; a longer pause between them ends it
+  double minDuration = 0.020;  ///< s; a shorter rattle is none: the last contact is discrete
 };
 
-/// Contacts in order of time. Errors: kBadInput when nothing in the sound is an attack.
+/// Contacts in order of time; only the last one may be a region (a rattle or roll at the end): the
+/// merge filter of a signature joins what is dense elsewhere. Times are multiples of 0.25 ms, give
+/// or take half a sample.
+/// Errors: kBadInput when nothing in the sound is an attack.
 [[nodiscard]] Result<std::vector<DetectedContact>> detectContacts(
     const Sound& sound, const DetectorSettings& settings = {});
 

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sound/onset_detector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "sound/band_energy.h"
+
+namespace ifa {
+namespace {
+
+double decibels(double ratio) { return 10 * std::log10(ratio); }
+double ratioOf(double db) { return std::pow(10.0, db / 10); }
+
+/// How much the sound rises, and how loud it then is, at every hop.
+struct Novelty {
+  std::vector<double> rise;   ///< dB, mean over the bands
+  std::vector<double> level;  ///< mean square after the hop, summed over the bands
+};
+
+/// What a band never falls under for long: the lowest tenth of its energies.
+double background(const BandEnergy& band, std::ptrdiff_t window) {
+  std::vector<double> energies(band.hops());
+  for (std::size_t k = 0; k < energies.size(); ++k) {
+    const auto start = static_cast<std::ptrdiff_t>(k);
+    energies[k] = band.mean(start, start + window);
+  }
+  const auto tenth = energies.begin() + static_cast<std::ptrdiff_t>(energies.size() / 10);
+  std::nth_element(energies.begin(), tenth, energies.end());
+  return *tenth;
+}
+
+std::vector<double> levels(const BandEnergies& energies, std::ptrdiff_t window) {
+  std::vector<double> level(energies.hops(), 0.0);
+  for (const BandEnergy& band : energies.bands) {
+    for (std::size_t k = 0; k < level.size(); ++k) {
+      const auto start = static_cast<std::ptrdiff_t>(k);
+      level[k] += band.mean(start, start + window);
+    }
+  }
+  return level;
+}
+
+/// Ratio of the energy just after each hop to that just before, in dB, falls counted as none, mean
+/// over the bands. Each band's floor keeps what nobody hears from looking like a rise.
+Novelty noveltyOf(const BandEnergies& energies, const DetectorSettings& settings) {
+  const auto after = energies.hopsIn(settings.after), before = energies.hopsIn(settings.before);
+  Novelty novelty;
+  novelty.level = levels(energies, after);
+  const double loudest = *std::max_element(novelty.level.begin(), novelty.level.end());
+  const auto bands = static_cast<double>(energies.bands.size());
+  // Ten decibels under the range, so that a contact at its end still stands out.
+  const double inaudible = loudest / bands * ratioOf(-settings.range - 10);
+  novelty.rise.assign(energies.hops(), 0.0);
+  for (const BandEnergy& band : energies.bands) {
+    const double floor =
+        std::max(inaudible, background(band, before) * ratioOf(settings.noiseMargin));
+    for (std::size_t k = 0; k < novelty.rise.size(); ++k) {
+      const auto now = static_cast<std::ptrdiff_t>(k);
+      const double ratio =
+          (band.mean(now, now + after) + floor) / (band.mean(now - before, now) + floor);
+      if (ratio > 1) novelty.rise[k] += decibels(ratio) / bands;
+    }
+  }
+  return novelty;
+}
+
+/// Hops whose rise is at least `minRise` and the largest (the first of equals) within `reach`.
+std::vector<std::size_t> peaks(const Novelty& novelty, double minRise, double minLevel,
+                               std::ptrdiff_t reach) {
+  const auto& rise = novelty.rise;
+  std::vector<std::size_t> found;
+  for (std::size_t k = 0; k < rise.size(); ++k) {
+    if (rise[k] < minRise || novelty.level[k] < minLevel) continue;
+    const std::size_t first = k - std::min(k, static_cast<std::size_t>(reach));
+    const std::size_t last = std::min(rise.size(), k + static_cast<std::size_t>(reach) + 1);
+    const auto begin = rise.begin();
+    const auto highest = std::max_element(begin + static_cast<std::ptrdiff_t>(first),
+                                          begin + static_cast<std::ptrdiff_t>(last));
+    if (highest - begin == static_cast<std::ptrdiff_t>(k)) found.push_back(k);
+  }
+  return found;
+}
+
+/// One contact a peak; its level is the highest in the next 20 ms, as a signature's amplitude is.
+std::vector<DetectedContact> contactsAt(const std::vector<std::size_t>& attacks,
+                                        const Novelty& novelty, double loudest, double hop) {
+  const auto reach = static_cast<std::size_t>(std::lround(0.020 / hop));
+  std::vector<DetectedContact> contacts;
+  for (std::size_t i = 0; i < attacks.size(); ++i) {
+    const std::size_t k = attacks[i];
+    const std::size_t next = i + 1 < attacks.size() ? attacks[i + 1] : novelty.level.size();
+    const auto begin = novelty.level.begin();
+    const double highest =
+        *std::max_element(begin + static_cast<std::ptrdiff_t>(k),
+                          begin + static_cast<std::ptrdiff_t>(std::min(next, k + reach)));
+    const double start = static_cast<double>(k) * hop;
+    contacts.push_back({start, start, decibels(highest / loudest), novelty.rise[k]});
+  }
+  return contacts;
+}
+
+/// Decision: whatever is much softer than the loudest contact and comes before all that are not is
+/// the hand, not the object; all amplitudes are relative to the first contact's.
+void dropLeadIn(std::vector<DetectedContact>& contacts, double leadIn) {
+  const auto first =
+      std::find_if(contacts.begin(), contacts.end(),
+                   [&](const DetectedContact& contact) { return contact.level >= -leadIn; });
+  if (first != contacts.end()) contacts.erase(contacts.begin(), first);
+}
+
+/// End of the rattle that follows the last contact: as long as small rises come without a pause.
+double rattleEnd(const std::vector<std::size_t>& smallRises, double start, double hop,
+                 const DetectorSettings& settings) {
+  double end = start;
+  for (const std::size_t k : smallRises) {
+    const double time = static_cast<double>(k) * hop;
+    if (time > end && time - end <= settings.rattleGap) end = time;
+  }
+  return end - start >= settings.minDuration ? end : start;
+}
+
+}  // namespace
+
+Result<std::vector<DetectedContact>> detectContacts(const Sound& sound,
+                                                    const DetectorSettings& settings) {
+  const auto nothing = badInput("no contact can be heard in the sound", "",
+                                "label the contacts by hand and give the labels");
+  if (sound.samples.empty() || sound.rate <= 0) return nothing;
+  const BandEnergies energies = bandEnergies(sound);
+  const Novelty novelty = noveltyOf(energies, settings);
+  const double loudest = *std::max_element(novelty.level.begin(), novelty.level.end());
+  if (!(loudest > 0)) return nothing;
+  const double minLevel = loudest * ratioOf(-settings.range);
+  const auto interval = energies.hopsIn(settings.minInterval);
+  auto contacts = contactsAt(peaks(novelty, settings.minRise, minLevel, interval), novelty, loudest,
+                             energies.hop);
+  if (contacts.empty()) return nothing;
+  dropLeadIn(contacts, settings.leadIn);
+  DetectedContact& last = contacts.back();
+  const auto small = peaks(novelty, settings.rattleRise, minLevel, (interval + 1) / 2);
+  last.end = std::min(rattleEnd(small, last.start, energies.hop, settings), sound.duration());
+  return contacts;
+}
+
+}  // namespace ifa
