@@ -16,7 +16,9 @@ struct KernelSettings {
   double bounceSpeed = 0.02;  ///< m/s, slower impacts do not bounce
   double restSpeed = 0.02;    ///< m/s, kinetic speed under which a supported body is at rest
   double segmentAngle = 0.4;  ///< rad, turn covered by one series of a flight
-  int iterations = 12;        ///< sweeps of the contact solver, at most
+  double isotropicAngle =
+      0.7;              ///< likewise where all moments are equal and the series converges faster
+  int iterations = 12;  ///< sweeps of the contact solver, at most
   int impactIterations = 30;  ///< likewise for an impact
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Impulses at the touching vertices: non-penetration, restitution and Coulomb friction by projected
-// Gauss-Seidel with accumulated, warm-started impulses.
+// Impulses at the touching vertices: non-penetration, restitution and Coulomb friction by block
+// Gauss-Seidel with accumulated, warm-started impulses. A point that sticks is solved exactly at
+// each visit; one that slides or parts by projection, normal first.
 #pragma once
 
 #include <algorithm>
@@ -44,11 +45,12 @@ struct WorldInertia {
 template <class R>
 struct ContactPoint {
   int vertex = -1;
-  Vec<R> r{};                        ///< from the centre of mass, world frame, m
-  R bound{};                         ///< least normal velocity allowed afterwards, m/s
-  Vec<R> impulse{};                  ///< accumulated, N s
-  Vec<R> turnX{}, turnY{}, turnZ{};  ///< change of spin by a unit impulse along each axis
-  R massX{}, massY{}, massZ{};       ///< effective masses along each axis, kg
+  Vec<R> r{};                            ///< from the centre of mass, world frame, m
+  R bound{};                             ///< least normal velocity allowed afterwards, m/s
+  Vec<R> impulse{};                      ///< accumulated, N s
+  Vec<R> turnX{}, turnY{}, turnZ{};      ///< change of spin by a unit impulse along each axis
+  R massX{}, massY{}, massZ{};           ///< effective masses along each axis, kg
+  R xx{}, xy{}, xz{}, yy{}, yz{}, zz{};  ///< inverse of the 3 x 3 inverse mass at the point, kg
 };
 
 /// Up to kMaxPoints contacts of one body with the ground, and the solver for their impulses.
@@ -66,7 +68,7 @@ class ContactSolver {
              Vec<R>& spin) {
     prepare(body, rotation);
     for (int k = 0; k < count; ++k) apply(body, points[k], points[k].impulse, velocity, spin);
-    const R small = R(1e-6) * R(body.mass);
+    const R small = R(3e-5) * R(body.mass);
     for (int sweep = 0; sweep < sweeps; ++sweep) {
       R change(0.0);
       for (int k = 0; k < count; ++k) {
@@ -92,9 +94,25 @@ class ContactSolver {
       p.turnX = inverse * Vec<R>{zero, p.r.z, zero - p.r.y};
       p.turnY = inverse * Vec<R>{zero - p.r.z, zero, p.r.x};
       p.turnZ = inverse * Vec<R>{p.r.y, zero - p.r.x, zero};
-      p.massX = one / (inverseMass + p.turnX.y * p.r.z - p.turnX.z * p.r.y);
-      p.massY = one / (inverseMass + p.turnY.z * p.r.x - p.turnY.x * p.r.z);
-      p.massZ = one / (inverseMass + p.turnZ.x * p.r.y - p.turnZ.y * p.r.x);
+      // Change of the point's velocity by unit impulses: a symmetric matrix.
+      const R axx = inverseMass + p.turnX.y * p.r.z - p.turnX.z * p.r.y;
+      const R ayy = inverseMass + p.turnY.z * p.r.x - p.turnY.x * p.r.z;
+      const R azz = inverseMass + p.turnZ.x * p.r.y - p.turnZ.y * p.r.x;
+      const R axy = p.turnX.z * p.r.x - p.turnX.x * p.r.z;
+      const R axz = p.turnX.x * p.r.y - p.turnX.y * p.r.x;
+      const R ayz = p.turnY.x * p.r.y - p.turnY.y * p.r.x;
+      p.massX = one / axx;
+      p.massY = one / ayy;
+      p.massZ = one / azz;
+      const R cxx = ayy * azz - ayz * ayz, cxy = axz * ayz - axy * azz;
+      const R cxz = axy * ayz - axz * ayy;
+      const R scale = one / (axx * cxx + axy * cxy + axz * cxz);
+      p.xx = cxx * scale;
+      p.xy = cxy * scale;
+      p.xz = cxz * scale;
+      p.yy = (axx * azz - axz * axz) * scale;
+      p.yz = (axy * axz - axx * ayz) * scale;
+      p.zz = (axx * ayy - axy * axy) * scale;
     }
   }
 
@@ -106,27 +124,35 @@ class ContactSolver {
 
   /// One Gauss-Seidel visit; returns the size of the change.
   static R relax(const BodyModel& body, ContactPoint<R>& p, Vec<R>& velocity, Vec<R>& spin) {
-    const R zero(0.0);
-    const R normal = velocity.z + spin.x * p.r.y - spin.y * p.r.x;
-    const R pressed = laneMax(zero, p.impulse.z - (normal - p.bound) * p.massZ);
-    const R push = pressed - p.impulse.z;
-    velocity.z = velocity.z + push * R(body.inverseMass);
-    spin = spin + p.turnZ * push;
+    const R ux = velocity.x + spin.y * p.r.z - spin.z * p.r.y;
+    const R uy = velocity.y + spin.z * p.r.x - spin.x * p.r.z;
+    const R uz = velocity.z + spin.x * p.r.y - spin.y * p.r.x - p.bound;
+    const Vec<R> stick = {p.impulse.x - (p.xx * ux + p.xy * uy + p.xz * uz),
+                          p.impulse.y - (p.xy * ux + p.yy * uy + p.yz * uz),
+                          p.impulse.z - (p.xz * ux + p.yz * uy + p.zz * uz)};
+    const R limit = R(body.surface.friction) * stick.z;
+    const auto slides =
+        (stick.z < R(0.0)) | (stick.x * stick.x + stick.y * stick.y > limit * limit);
+    Vec<R> next = stick;
+    if (anyLane(slides)) next = select<R>(slides, slide(body, p, {ux, uy, uz}), stick);
+    const Vec<R> change = next - p.impulse;
+    apply(body, p, change, velocity, spin);
+    p.impulse = next;
+    return laneAbs(change.x) + laneAbs(change.y) + laneAbs(change.z);
+  }
 
-    const R slideX = velocity.x + spin.y * p.r.z - spin.z * p.r.y;
-    const R slideY = velocity.y + spin.z * p.r.x - spin.x * p.r.z;
-    R dragX = p.impulse.x - slideX * p.massX, dragY = p.impulse.y - slideY * p.massY;
+  /// Impulse of a point that slides or parts: the normal one first, then friction within its limit.
+  static Vec<R> slide(const BodyModel& body, const ContactPoint<R>& p, const Vec<R>& u) {
+    const R pressed = laneMax(R(0.0), p.impulse.z - u.z * p.massZ);
+    const R push = pressed - p.impulse.z;
+    const R ux = u.x + push * (p.turnZ.y * p.r.z - p.turnZ.z * p.r.y);
+    const R uy = u.y + push * (p.turnZ.z * p.r.x - p.turnZ.x * p.r.z);
+    const R dragX = p.impulse.x - ux * p.massX, dragY = p.impulse.y - uy * p.massY;
     const R limit = R(body.surface.friction) * pressed;
     const R size2 = dragX * dragX + dragY * dragY;
-    if (anyLane(size2 > limit * limit)) {
-      const R scale = select(size2 > limit * limit, limit / laneSqrt(size2), R(1.0));
-      dragX = dragX * scale;
-      dragY = dragY * scale;
-    }
-    const Vec<R> change = {dragX - p.impulse.x, dragY - p.impulse.y, zero};
-    apply(body, p, change, velocity, spin);
-    p.impulse = {dragX, dragY, pressed};
-    return laneAbs(push) + laneAbs(change.x) + laneAbs(change.y);
+    const R scale =
+        select(size2 > limit * limit, limit / laneSqrt(laneMax(size2, R(1e-300))), R(1.0));
+    return {dragX * scale, dragY * scale, pressed};
   }
 };
 

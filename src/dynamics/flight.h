@@ -66,7 +66,8 @@ class FlightSegment {
   FlightSegment(const BodyModel& body, const KernelState<double>& start, double longest)
       : body_(body), start_(start), rotation_(body, {start.q, start.w}) {
     const double rate = std::sqrt(dot(start.w, start.w));
-    length_ = body.settings.segmentAngle / laneMax(rate, 1.0);
+    const double angle = body.isotropic ? body.settings.isotropicAngle : body.settings.segmentAngle;
+    length_ = angle / laneMax(rate, 1.0);
     if (longest < length_) length_ = longest;
   }
 
