@@ -5,7 +5,6 @@
 #include "motion/build_motion.h"
 #include "planner/planner.h"
 #include "render/timeline.h"
-#include "sound/onset_detector.h"
 
 namespace ifa {
 
@@ -25,10 +24,6 @@ tl::unexpected<Error> missing(const char* what) {
   return missing("the motion builder");
 }
 [[gnu::weak]] AuditReport audit(const Motion&, const Body&, const AuditSettings&) { return {}; }
-[[gnu::weak]] Result<std::vector<DetectedContact>> detectContacts(const Sound&,
-                                                                  const DetectorSettings&) {
-  return missing("detection");
-}
 [[gnu::weak]] Result<void> writeTimeline(const std::filesystem::path&, const Motion&,
                                          const Sound&) {
   return {};
