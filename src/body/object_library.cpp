@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The library of objects: where it is and what is in it.
 #include <algorithm>
-#include <cctype>
-#include <cstdlib>
 #include <system_error>
 
 #include "body/object_file.h"
@@ -49,18 +47,6 @@ bool looksLikePath(const std::string& text) {
 }
 
 }  // namespace
-
-fs::path objectsFolder() {
-  if (const char* variable = std::getenv("IFA_OBJECTS"); variable != nullptr && *variable != '\0') {
-    return variable;
-  }
-  std::error_code code;
-  const fs::path program = fs::read_symlink("/proc/self/exe", code);
-  const fs::path installed =
-      (program.parent_path() / "../share/inverse-foley/objects").lexically_normal();
-  if (!code && fs::is_directory(installed, code)) return installed;
-  return IFA_SOURCE_OBJECTS;
-}
 
 Result<std::vector<std::string>> listObjects() {
   std::error_code code;

@@ -45,7 +45,9 @@ TEST_P(LibraryObject, MeshIsClosedOutwardAndOfReasonableSize) {
   EXPECT_LE(report.triangles, 5000u);
   for (Eigen::Index i = 0; i < 3; ++i) {
     const double side = GetParam().size[static_cast<std::size_t>(i)];
-    if (side > 0) EXPECT_NEAR(report.extent[i], side, 1e-6);
+    if (side > 0) {
+      EXPECT_NEAR(report.extent[i], side, 1e-6);
+    }
   }
 }
 
