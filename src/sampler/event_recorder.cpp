@@ -39,6 +39,10 @@ void EventRecorder::add(const ContactStep& step) {
   bin_.touching = step.touching;
 }
 
+void EventRecorder::elapse(double time) {
+  if (open_ && time >= bin_.time + kBin - kInstant) closeBin();
+}
+
 void EventRecorder::closeBin() {
   open_ = false;
   largest_ = std::max(largest_, bin_.impulse.norm());

@@ -24,6 +24,10 @@ class EventRecorder {
   explicit EventRecorder(const RecorderSettings& settings) : settings_(settings) {}
 
   void add(const ContactStep& step);
+  /// Tells that nothing was added until `time`; closes a bin that is over by then.
+  void elapse(double time);
+  /// Events so far, without what the open bin may add.
+  [[nodiscard]] const std::vector<ContactEvent>& events() const { return events_; }
   /// Closes the last event, marks it terminal when `atRest`, and returns all events.
   [[nodiscard]] std::vector<ContactEvent> finish(bool atRest);
   /// Largest impulse in one bin so far, N s.

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Live simulation of one contact event, and of what leads to the next audible one.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "dynamics/stepper.h"
+#include "model/contact_event.h"
+#include "sampler/event_recorder.h"
+
+namespace ifa {
+
+/// Where a body that was left to itself is next heard.
+struct NextContact {
+  double delay = 0;            ///< s
+  RigidState state;            ///< pre-contact state there
+  bool silentContact = false;  ///< it touched on the way
+};
+
+/// Not thread safe; one per thread. The model must outlive it.
+class EventSimulation {
+ public:
+  EventSimulation(const BodyModel& model, const RecorderSettings& recorder)
+      : model_(model), recorder_(recorder), stepper_(model) {}
+
+  /// Ways in which the event that begins at `arrival` may end: the natural one first, then, where
+  /// `cuts` is set, at each earlier impulse that is heard (what follows is then up to the caller).
+  /// With `terminal`, the only way taken is that to rest without another audible event.
+  /// Empty when the contact is not heard at once. Times count from the arrival.
+  void outcomes(const RigidState& arrival, double restitution, bool terminal, bool cuts,
+                std::vector<ContactEvent>& out);
+
+  /// Simulates from `state` for at most `horizon` seconds until an audible event begins.
+  [[nodiscard]] std::optional<NextContact> nextAudible(const RigidState& state, double horizon);
+
+ private:
+  const BodyModel& model_;
+  RecorderSettings recorder_;
+  Stepper stepper_;
+};
+
+}  // namespace ifa

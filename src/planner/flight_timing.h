@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Small changes of velocity after a contact, such that the next touch falls on a given time
+// (docs/planner.md).
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "affinity/factors.h"
+#include "dynamics/body_model.h"
+#include "model/rigid_state.h"
+
+namespace ifa {
+
+using Coordinates = Eigen::Matrix<double, 6, 1>;  ///< of a PlausibleRegion
+
+/// A flight that takes exactly the time asked for.
+struct TimedFlight {
+  Eigen::Vector3d velocityChange, angularVelocityChange;  ///< world frame, m/s and rad/s
+  RigidState departure;                                   ///< after the change
+  double bend = 0;
+};
+
+/// The change nearest to the coordinates `wish` (in the metric of the plausible region) after which
+/// the lowest vertex is on the ground `duration` seconds later and on its way down: two
+/// Gauss-Newton steps of least norm over all six coordinates, then closed exactly by the vertical
+/// velocity. Whether something touches earlier is not looked at here.
+[[nodiscard]] std::optional<TimedFlight> timeFlight(const BodyModel& model, const RigidState& after,
+                                                    const PlausibleRegion& region, Coordinates wish,
+                                                    double duration);
+
+/// State at the first touch of a flight from `departure` within `limit` seconds, and when.
+struct Touch {
+  double time = 0;
+  RigidState state;
+};
+[[nodiscard]] std::optional<Touch> firstTouch(const BodyModel& model, const RigidState& departure,
+                                              double limit);
+
+}  // namespace ifa
