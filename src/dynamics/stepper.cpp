@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dynamics/energy.h"
+
 namespace ifa {
 
 namespace {
@@ -13,11 +15,6 @@ constexpr int kImpactsAtOnce = 6;
 /// A body that hardly moves for so long is at rest even when it stands on less than three points,
 /// s.
 constexpr double kQuiet = 0.05;
-
-double kinetic(const BodyModel& body, const Vec<double>& v, const Vec<double>& w) {
-  return 0.5 * (body.mass * dot(v, v) + body.inertia.x * w.x * w.x + body.inertia.y * w.y * w.y +
-                body.inertia.z * w.z * w.z);
-}
 
 }  // namespace
 
@@ -164,15 +161,15 @@ Advance Stepper::impact(const Rotation<double>& rotation) {
   };
   Vec<double> velocity, spin;
   impulse_ = solve(restitution_, velocity, spin);
-  const double energy0 = kinetic(body_, state_.velocity, state_.w);
+  const double energy0 = kineticEnergy(body_, state_.velocity, state_.w);
   Vec<double> w = rotation.transposed(spin);
-  if (kinetic(body_, velocity, w) > energy0) {
+  if (kineticEnergy(body_, velocity, w) > energy0) {
     Vec<double> plasticVelocity, plasticSpin;
     const Vec<double> plastic = solve(0, plasticVelocity, plasticSpin);
     const Vec<double> plasticW = rotation.transposed(plasticSpin);
     const Vec<double> dv = velocity - plasticVelocity, dw = w - plasticW;
-    const double a = kinetic(body_, dv, dw),
-                 c = kinetic(body_, plasticVelocity, plasticW) - energy0;
+    const double a = kineticEnergy(body_, dv, dw),
+                 c = kineticEnergy(body_, plasticVelocity, plasticW) - energy0;
     const double b = body_.mass * dot(plasticVelocity, dv) + body_.inertia.x * plasticW.x * dw.x +
                      body_.inertia.y * plasticW.y * dw.y + body_.inertia.z * plasticW.z * dw.z;
     // Energy along the way is a s^2 + b s + c, with c <= 0 and the whole above 0 at s = 1.
@@ -303,11 +300,11 @@ Advance Stepper::contact(const Rotation<double>& rotation, double limit) {
     ++stuck_;
     return Advance::kLift;
   }
-  const double energy0 = energy(state_);
+  const double energy0 = totalEnergy(body_, state_);
   move(rotation, velocity, spin, step);
   // The step itself may gain a little where the turn is finite; nothing may come of that.
-  const double gain = energy(state_) - energy0;
-  const double moving = kinetic(body_, state_.velocity, state_.w);
+  const double gain = totalEnergy(body_, state_) - energy0;
+  const double moving = kineticEnergy(body_, state_.velocity, state_.w);
   if (gain > 0 && moving > 0) {
     const double scale = moving > gain ? std::sqrt((moving - gain) / moving) : 0;
     state_.velocity = state_.velocity * scale;
@@ -319,7 +316,7 @@ Advance Stepper::contact(const Rotation<double>& rotation, double limit) {
   lastPress_ = impulse_.z / step;
   impactsHere_ = stuck_ = 0;
   const double slow = 0.5 * body_.settings.restSpeed * body_.settings.restSpeed;
-  const double perMass = kineticPerMass(state_);
+  const double perMass = kineticEnergy(body_, state_.velocity, state_.w) / body_.mass;
   if (perMass < slow) {
     if (quietSince_ < 0) quietSince_ = state_.time;
     if (supported() || state_.time - quietSince_ > kQuiet) phase_ = Phase::kRest;
@@ -346,14 +343,6 @@ bool Stepper::supported() const {
     if (left < margin || right > -margin) return false;
   }
   return true;
-}
-
-double Stepper::kineticPerMass(const KernelState<double>& s) const {
-  return kinetic(body_, s.velocity, s.w) / body_.mass;
-}
-
-double Stepper::energy(const KernelState<double>& s) const {
-  return kinetic(body_, s.velocity, s.w) + body_.mass * kGravity * s.position.z;
 }
 
 ContactStep Stepper::contactStep() const {

@@ -43,10 +43,6 @@ class Stepper {
   [[nodiscard]] bool touching() const { return phase_ != Phase::kFlight; }
   [[nodiscard]] ContactStep contactStep() const;
 
-  /// Kinetic energy per mass, m^2/s^2, and total energy (height above the ground plane), J.
-  [[nodiscard]] double kineticPerMass(const KernelState<double>& s) const;
-  [[nodiscard]] double energy(const KernelState<double>& s) const;
-
  private:
   Advance fly(double limit);
   Advance touch(double limit);

@@ -7,6 +7,7 @@
 
 #include "base/parallel.h"
 #include "base/portable_math.h"
+#include "dynamics/energy.h"
 #include "dynamics/simulator.h"
 #include "sampler/initial_state.h"
 
@@ -18,13 +19,6 @@ namespace {
 constexpr std::uint64_t kSeed = 0x6f75746c6f6f6bULL;
 constexpr double kLongestDrop = 10;   // s
 constexpr double kLeastShare = 1e-4;  // of the energy at rest; keeps the logarithm finite
-
-double energyOf(const BodyModel& model, const RigidState& state) {
-  const KernelState<double> k = kernelState(state, 0);
-  return 0.5 * (model.mass * dot(k.velocity, k.velocity) + model.inertia.x * k.w.x * k.w.x +
-                model.inertia.y * k.w.y * k.w.y + model.inertia.z * k.w.z * k.w.z) +
-         model.mass * kGravity * k.position.z;
-}
 
 struct Sample {
   EnergyOutlook::Features features;
@@ -46,7 +40,7 @@ std::vector<Sample> samplesOfDrop(const Body& body, const BodyModel& model,
   std::vector<Sample> samples;
   for (std::size_t k = 0; k + 1 < events.size(); ++k) {
     samples.push_back({EnergyOutlook::features(starts, impulses, k),
-                       energyOf(model, events[k].after), energyOf(model, drop.rest)});
+                       totalEnergy(model, events[k].after), totalEnergy(model, drop.rest)});
   }
   return samples;
 }
