@@ -122,7 +122,41 @@ def triangulate(loops):
     ring = rings[0]
     for hole in sorted(rings[1:], key=lambda h: -max(points[i][0] for i in h)):
         ring = bridge(ring, hole, points)
-    return clip_ears(ring, points)
+    triangles = clip_ears(ring, points)
+    outline = {(r[i - 1], r[i]) for r in rings for i in range(len(r))}
+    return flip_edges(triangles, points, outline)
+
+
+def quality(points, triangle):
+    """Area against the longest side, 0.43 for the best; at most 0 when it has none."""
+    a, b, c = (points[i] for i in triangle)
+    sides = [sum(x * x for x in sub(p, q)) for p, q in ((a, b), (b, c), (c, a))]
+    return turn(a, b, c) / 2 / max(sides)
+
+
+def flip_edges(triangles, points, fixed):
+    """Turns inner edges as long as that makes the worse of their two triangles better."""
+    triangles = [tuple(t) for t in triangles]
+    for _ in range(50):
+        owner = {(t[k - 1], t[k]): n for n, t in enumerate(triangles) for k in range(3)}
+        touched, changed = set(), False
+        for (a, b), n in list(owner.items()):
+            m = owner.get((b, a))
+            if a > b or m is None or n in touched or m in touched:
+                continue
+            if (a, b) in fixed or (b, a) in fixed:
+                continue
+            c = next(i for i in triangles[n] if i not in (a, b))
+            d = next(i for i in triangles[m] if i not in (a, b))
+            fresh = (d, b, c), (c, a, d)
+            if c != d and min(quality(points, t) for t in fresh) > 1e-9 + min(
+                    quality(points, triangles[n]), quality(points, triangles[m])):
+                triangles[n], triangles[m] = fresh
+                touched |= {n, m}
+                changed = True
+        if not changed:
+            break
+    return triangles
 
 
 def clip_ears(ring, points):
@@ -138,11 +172,9 @@ def clip_ears(ring, points):
                     j not in (ia, ib, ic) and points[j] not in (a, b, c) and
                     covers((a, b, c), points[j]) for j in ring):
                 continue
-            # The ear of the best shape: its area against its longest side.
-            sides = [sum(x * x for x in sub(p, q)) for p, q in ((a, b), (b, c), (c, a))]
-            quality = area / max(sides)
-            if best is None or quality > best[0]:
-                best = (quality, i)
+            shape = quality(points, (ia, ib, ic))
+            if best is None or shape > best[0]:
+                best = (shape, i)
         if best is None:
             # What is left has no area: points in one line, and the two sides of bridges.
             sizes = [abs(turn(points[ring[i - 1]], points[ring[i]],

@@ -236,7 +236,8 @@ def make_cup():
     phase = math.pi / count
 
     def level(r, z):
-        return ring(r * MM, z * MM, count, phase)
+        """Across flats 2 r."""
+        return ring(r * MM / math.cos(phase), z * MM, count, phase)
 
     outside = [level(34, 0), level(39.4, 6), level(41, 95)]
     inside = [level(39.6, 95), level(37.6, 93.6), level(36.6, 91), level(34.9, 11),
@@ -272,10 +273,11 @@ def handle_rings(lower, upper):
     def wall(z):
         return r0 + (z - z0) / (z1 - z0) * (r1 - r0)
 
-    path = [(None, 76, 7.4), (47, 77.5, 5.8), (57, 76.4, 5), (65, 70, 4.6), (68.5, 59, 4.6),
-            (66.5, 46, 4.6), (59, 36, 5), (49, 29.5, 5.8), (None, 26, 7.4)]
+    path = [(None, 76, 7.4), (44, 77, 6.2), (50, 77.6, 5.2), (57, 76, 4.8), (63, 72, 4.6),
+            (67, 66, 4.5), (69, 58.5, 4.5), (68, 50, 4.5), (65, 43, 4.5), (60, 37.5, 4.7),
+            (53, 32.6, 5.2), (46.5, 28.6, 6.0), (None, 25.5, 7.4)]
     path = [((wall(z * MM) if x is None else x * MM), z * MM, t * MM) for x, z, t in path]
-    rings, count = [], 10
+    rings, count = [], 12
     for k, (x, z, thick) in enumerate(path):
         if k in (0, len(path) - 1):
             normal = (0.0, 1.0 if k == 0 else -1.0)
@@ -294,7 +296,7 @@ def handle_rings(lower, upper):
 
 def make_nut():
     """M10: 17 mm across flats, corners chamfered on both sides, a threaded bore."""
-    flat, half, drop = 8.5 * MM, 4 * MM, 0.76 * MM
+    flat, half, drop = 8.5 * MM, 4 * MM, 1.48 * MM
     corner = flat / math.cos(math.pi / 6)
     mesh = Mesh()
 
@@ -327,7 +329,7 @@ def make_nut():
 def make_brick(columns, rows):
     """A toy brick: studs above, hollow below, tubes between the studs."""
     pitch, play, tall, stud = 8.0, 0.1, 9.6, 1.8
-    wall, roof, segments = 1.5, 1.2, 16
+    wall, roof, segments = 1.3, 1.0, 16
     material = "brick_red"
     x, y = columns * pitch / 2 - play, rows * pitch / 2 - play
     mesh = Mesh()
