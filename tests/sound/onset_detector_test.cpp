@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sound/onset_detector.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "sound/detection_score.h"
+#include "sound/synthetic_sound.h"
+
+namespace ifa {
+namespace {
+
+using test::Burst;
+
+std::vector<double> startsOf(const std::vector<DetectedContact>& contacts) {
+  std::vector<double> starts;
+  for (const DetectedContact& contact : contacts) starts.push_back(contact.start);
+  return starts;
+}
+
+/// A bouncing thing: gaps that shrink, hits that get softer.
+std::vector<Burst> bounces() {
+  std::vector<Burst> bursts;
+  double time = 0.1, gap = 0.18, amplitude = 0.8;
+  for (int i = 0; i < 12; ++i) {
+    bursts.push_back({time, amplitude, 0.004});
+    time += gap;
+    gap *= 0.82;
+    amplitude *= 0.8;
+  }
+  return bursts;
+}
+
+std::vector<double> timesOf(const std::vector<Burst>& bursts) {
+  std::vector<double> times;
+  for (const Burst& burst : bursts) times.push_back(burst.time);
+  return times;
+}
+
+class FindsBursts : public testing::TestWithParam<int> {};
+
+TEST_P(FindsBursts, AllOfThemAndNothingElse) {
+  for (const double noise : {0.0, 1e-4, 3e-3}) {
+    const auto sound = test::burstsInNoise(bounces(), 1.5, GetParam(), noise);
+    const auto contacts = detectContacts(sound);
+    ASSERT_TRUE(contacts) << contacts.error().text();
+    const auto score = test::scoreDetection(timesOf(bounces()), startsOf(*contacts), 0.002);
+    EXPECT_EQ(score.missed, 0U) << "noise " << noise;
+    EXPECT_EQ(score.invented, 0U) << "noise " << noise;
+    EXPECT_LT(score.medianError(), 0.0006) << "noise " << noise;
+    EXPECT_EQ(contacts->back().end, contacts->back().start) << "a click is no rattle";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Rates, FindsBursts, testing::Values(16000, 44100, 48000, 96000, 192000));
+
+TEST(DetectContacts, DoesNotDependOnTheVolume) {
+  auto sound = test::burstsInNoise(bounces(), 1.5, 44100, 1e-4);
+  const auto loud = detectContacts(sound);
+  for (float& sample : sound.samples) sample *= 0.01F;
+  const auto soft = detectContacts(sound);
+  ASSERT_TRUE(loud && soft);
+  EXPECT_EQ(startsOf(*loud), startsOf(*soft));
+}
+
+TEST(DetectContacts, TellsHitsInAReverberantRoom) {
+  // A diffuse tail of 0.25 s (RT60) under every hit, 15 dB down.
+  auto bursts = bounces();
+  const auto truth = timesOf(bursts);
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    bursts.push_back({bursts[i].time, 0.18 * bursts[i].amplitude, 0.036});
+  }
+  const auto contacts = detectContacts(test::burstsInNoise(bursts, 1.5, 48000, 1e-4));
+  ASSERT_TRUE(contacts);
+  EXPECT_GE(test::scoreDetection(truth, startsOf(*contacts), 0.005).fMeasure(), 0.95);
+}
+
+TEST(DetectContacts, LeavesOutFaintEchoes) {
+  // A click 21 ms and another 35 ms after each hit, 18 dB down, in a tail that covers them.
+  std::vector<Burst> bursts;
+  for (const double time : {0.1, 0.4, 0.7}) {
+    bursts.push_back({time, 0.8, 0.012});
+    bursts.push_back({time + 0.021, 0.1, 0.002});
+    bursts.push_back({time + 0.035, 0.05, 0.002});
+  }
+  const auto contacts = detectContacts(test::burstsInNoise(bursts, 1, 48000, 1e-4));
+  ASSERT_TRUE(contacts);
+  EXPECT_EQ(contacts->size(), 3U);
+}
+
+TEST(DetectContacts, HearsAnAttackAtTheVeryStart) {
+  const auto contacts = detectContacts(test::burstsInNoise({{0.0}, {0.2}}, 0.5, 44100, 1e-4));
+  ASSERT_TRUE(contacts);
+  ASSERT_EQ(contacts->size(), 2U);
+  EXPECT_NEAR(contacts->front().start, 0, 0.0005);
+}
+
+TEST(DetectContacts, TakesAHandNoiseBeforeTheThrowForNoContact) {
+  const auto contacts =
+      detectContacts(test::burstsInNoise({{0.05, 0.01}, {0.3, 0.9}, {0.5, 0.01}}, 1, 44100, 1e-5));
+  ASSERT_TRUE(contacts);
+  ASSERT_EQ(contacts->size(), 2U);
+  EXPECT_NEAR(contacts->front().start, 0.3, 0.001);
+}
+
+TEST(DetectContacts, TheLastContactMayBeARattle) {
+  std::vector<Burst> bursts{{0.1, 0.8}, {0.3, 0.5}};
+  for (int i = 0; i < 12; ++i) bursts.push_back({0.45 + 0.012 * i, 0.1, 0.009});
+  const auto contacts = detectContacts(test::burstsInNoise(bursts, 1, 44100, 1e-4));
+  ASSERT_TRUE(contacts);
+  EXPECT_NEAR(contacts->back().end, 0.45 + 0.012 * 11, 0.025);
+  for (std::size_t i = 0; i + 1 < contacts->size(); ++i) {
+    EXPECT_EQ((*contacts)[i].end, (*contacts)[i].start);
+  }
+}
+
+TEST(DetectContacts, NothingIsFoundWhereNothingHappens) {
+  const auto noise = detectContacts(test::burstsInNoise({}, 2, 44100, 0.1));
+  ASSERT_FALSE(noise);
+  EXPECT_EQ(noise.error().code, ErrorCode::kBadInput);
+  EXPECT_FALSE(noise.error().remedy.empty());
+  EXPECT_FALSE(detectContacts(test::silence(1, 44100)));
+  EXPECT_FALSE(detectContacts(test::silence(0, 44100)));
+}
+
+TEST(DetectContacts, ALongSoundTakesAboutASecond) {
+  std::vector<Burst> bursts;
+  for (int i = 0; i < 200; ++i) bursts.push_back({0.1 + 0.29 * i, 0.5, 0.005});
+  const auto sound = test::burstsInNoise(bursts, 60, 44100, 1e-4);
+  const auto start = std::chrono::steady_clock::now();
+  const auto contacts = detectContacts(sound);
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  ASSERT_TRUE(contacts);
+  EXPECT_EQ(contacts->size(), 200U);
+  // Measured: 0.25 s. The bound leaves room for sanitizers and busy machines.
+  EXPECT_LT(taken.count(), 20.0);
+  RecordProperty("seconds", std::to_string(taken.count()));
+}
+
+}  // namespace
+}  // namespace ifa
