@@ -13,7 +13,7 @@
 namespace ifa {
 
 /// Largest motion.json that is read, in bytes: hours of motion.
-inline constexpr std::size_t kMaxMotionBytes = std::size_t{512} << 20;
+inline constexpr std::size_t kMaxMotionBytes = std::size_t{256} << 20;
 
 /// The motion as JSON text. Numbers have the fewest digits that give back the same double, so the
 /// same motion gives the same bytes and reading gives back the same motion. One contact and one row

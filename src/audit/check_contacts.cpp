@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "audit/checks.h"
+
+namespace ifa::audit_detail {
+namespace {
+
+constexpr double kSamePlace = 1e-6;  // m, of a contact's position and its sample
+// An event begins with a bin that is heard. Where the bins of who found it lay is not known, so two
+// of them are searched, and a little under the threshold will do.
+constexpr double kFindWindow = 2 * kBin;
+constexpr double kFindShare = 0.9;
+
+std::string label(std::size_t index) { return "contact " + std::to_string(index + 1); }
+
+/// What, if anything, is wrong with the claim that contact `index` happens.
+std::string whyNotFound(const Evidence& all, std::size_t index) {
+  const MotionContact& contact = all.contact(index);
+  double heard = 0;
+  bool touches = false;
+  std::string wrong;
+  for (const Step& step : all.steps) {
+    const MotionSample& sample = all.sample(step.from);
+    const bool mine = step.kind == StepKind::kEvent && step.contact == index;
+    if (!mine || sample.time > contact.time + kFindWindow) continue;
+    if (std::abs(sample.time - contact.time) < kSameTime) {
+      touches = touches || std::abs(all.lowest[step.from]) <= all.depth;
+      if ((sample.position - contact.position).norm() > kSamePlace) {
+        wrong = "is not where the file says";
+      }
+    }
+    heard = std::max(heard, all.excess(step.impulse, step.duration));
+  }
+  if (!touches) return "does not touch the ground";
+  if (!(heard > kFindShare * all.threshold)) return "cannot be heard";
+  return wrong;
+}
+
+AuditCheck starts(const Evidence& all) {
+  Worst worst;
+  for (std::size_t i = 0; i < all.motion.contacts.size(); ++i) {
+    const MotionContact& contact = all.contact(i);
+    worst.see(std::abs(contact.time - contact.targetTime), contact.time, label(i));
+  }
+  return worst.check("contact starts", "s", all.settings.startError);
+}
+
+AuditCheck found(const Evidence& all) {
+  double missing = 0, time = 0;
+  std::string detail;
+  for (std::size_t i = 0; i < all.motion.contacts.size(); ++i) {
+    const std::string why = whyNotFound(all, i);
+    if (why.empty() || missing++ > 0) continue;
+    time = all.contact(i).time;
+    detail = label(i) + " " + why;
+  }
+  return {"contacts found", missing == 0, missing, 0, "missing", time, detail};
+}
+
+/// A single step that is heard by itself is heard however bins are laid.
+AuditCheck unlisted(const Evidence& all) {
+  Worst worst;
+  for (const Step& step : all.steps) {
+    if (step.kind == StepKind::kEvent || step.kind == StepKind::kAfter) continue;
+    if (all.sample(step.from).time < all.contact(0).time) continue;
+    worst.see(all.excess(step.impulse, step.duration), all.sample(step.from).time);
+  }
+  return worst.check("unlisted contacts", "N s", all.threshold);
+}
+
+}  // namespace
+
+void checkContacts(const Evidence& all, Checks& checks) {
+  checks.push_back(starts(all));
+  checks.push_back(found(all));
+  checks.push_back(unlisted(all));
+}
+
+}  // namespace ifa::audit_detail

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "audit/checks.h"
+
+namespace ifa::audit_detail {
+namespace {
+
+/// Impulses below this neither push nor pull: rounding, N s.
+double noImpulse(const Evidence& all) { return all.settings.noiseTime * all.mass * kGravity; }
+
+bool isQuiet(const Step& step) {
+  return step.kind == StepKind::kSilent || step.kind == StepKind::kAfter ||
+         step.kind == StepKind::kRest;
+}
+
+/// An impulse without a vertex at the ground comes from nowhere.
+AuditCheck onTheGround(const Evidence& all) {
+  Worst worst;
+  for (const Step& step : all.steps) {
+    if (!isQuiet(step) || step.impulse.norm() <= noImpulse(all)) continue;
+    worst.see(std::min(std::abs(all.lowest[step.from]), std::abs(all.lowest[step.from + 1])),
+              all.sample(step.from).time);
+  }
+  return worst.check("touching on the ground", "m from ground", all.depth);
+}
+
+/// By how much of itself an impulse leaves the friction cone; pulling counts in full.
+AuditCheck frictionCone(const Evidence& all) {
+  Worst worst;
+  for (const Step& step : all.steps) {
+    const double size = step.impulse.norm();
+    if (!isQuiet(step) || size <= noImpulse(all)) continue;
+    const double normal = step.impulse.z(), tangential = step.impulse.head<2>().norm();
+    const double outside = std::max(tangential - all.motion.object.friction * normal, -normal);
+    worst.see((outside - noImpulse(all)) / size, all.sample(step.from).time);
+  }
+  return worst.check("friction cone", "share", all.settings.frictionMargin);
+}
+
+/// Distance of `x` from the straight way between `a` and `b`.
+double distanceFromWay(const Eigen::Vector3d& x, const Eigen::Vector3d& a,
+                       const Eigen::Vector3d& b) {
+  const Eigen::Vector3d way = b - a;
+  const double squared = way.squaredNorm();
+  const double share = squared > 0 ? std::clamp((x - a).dot(way) / squared, 0.0, 1.0) : 0.0;
+  return (x - a - share * way).norm();
+}
+
+Eigen::Vector3d turn(const MotionSample& from, const MotionSample& to) {
+  const Eigen::AngleAxisd difference(to.orientation * from.orientation.conjugate());
+  return difference.angle() * difference.axis();
+}
+
+/// Poses move as velocities say: in a step of contact by something between the velocity before and
+/// the one after. What is beyond is displacement by hand.
+AuditCheck motionInContact(const Evidence& all) {
+  Worst worst;
+  for (const Step& step : all.steps) {
+    if (step.kind == StepKind::kFlight || step.kind == StepKind::kRest) continue;
+    if (step.duration < kSameTime || step.duration > kBin + 1e-6) continue;
+    const MotionSample &from = all.sample(step.from), &to = all.sample(step.from + 1);
+    const double moved = distanceFromWay(to.position - from.position, step.duration * from.velocity,
+                                         step.duration * to.velocity);
+    const double turned = distanceFromWay(turn(from, to), step.duration * from.angularVelocity,
+                                          step.duration * to.angularVelocity);
+    worst.see(moved + all.body.radius * turned, from.time);
+  }
+  return worst.check("motion in contact", "m", all.depth);
+}
+
+}  // namespace
+
+void checkTouching(const Evidence& all, Checks& checks) {
+  checks.push_back(onTheGround(all));
+  checks.push_back(frictionCone(all));
+  checks.push_back(motionInContact(all));
+}
+
+}  // namespace ifa::audit_detail

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which instants of a motion become keys of an animation that players interpolate linearly.
+#pragma once
+
+#include <vector>
+
+#include "export/pose_track.h"
+#include "ifa/motion.h"
+
+namespace ifa {
+
+struct AnimationKey {
+  float time = 0;  ///< s from the sound's first sample
+  Pose pose;       ///< neighbours' quaternions have a dot product >= 0
+};
+
+/// Keys at multiples of 1/`rate` s and exactly at the start and end of each contact, and more where
+/// straight lines between keys would leave the motion by more than `maxError` anywhere within
+/// `radius` of the centre of mass. Times start at 0 and increase strictly as floats; what lies
+/// before the sound's first sample is cut, and the first pose is held until the motion begins.
+/// @param motion  with samples
+[[nodiscard]] std::vector<AnimationKey> animationKeys(const Motion& motion, double rate,
+                                                      double radius, double maxError);
+
+}  // namespace ifa

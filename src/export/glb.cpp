@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+// Decision: an own writer; the JSON of one node and one animation is shorter than a library's
+// set-up for it, and its bytes are ours to keep stable.
+#include "export/glb.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "base/file.h"
+#include "export/animation_keys.h"
+#include "export/drawable_mesh.h"
+
+namespace ifa {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+static_assert(std::endian::native == std::endian::little, "glTF buffers are little-endian");
+
+// glTF's numbers for component types and buffer targets.
+constexpr int kFloat = 5126, kUnsignedInt = 5125;
+constexpr int kVertexTarget = 34962, kIndexTarget = 34963;
+
+/// World frame (z up) to glTF's (y up): x stays, y becomes -z.
+template <class T>
+std::array<T, 3> yUp(T x, T y, T z) {
+  return {x, z, -y};
+}
+
+std::vector<std::array<float, 3>> allYUp(std::vector<std::array<float, 3>> vectors) {
+  for (auto& v : vectors) v = yUp(v[0], v[1], v[2]);
+  return vectors;
+}
+
+/// The one buffer and the JSON tables that say what lies where.
+class Buffer {
+ public:
+  /// @param components  floats or indices per element. Returns the accessor's index.
+  template <class T>
+  int add(const std::vector<T>& items, const char* type, int componentType, int target = 0) {
+    Json view = {
+        {"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", items.size() * sizeof(T)}};
+    if (target != 0) view["target"] = target;
+    views_.push_back(view);
+    accessors_.push_back({{"bufferView", views_.size() - 1},
+                          {"componentType", componentType},
+                          {"count", items.size()},
+                          {"type", type}});
+    bytes_.append(reinterpret_cast<const char*>(items.data()), items.size() * sizeof(T));
+    return static_cast<int>(accessors_.size()) - 1;
+  }
+  void setRange(int accessor, const Json& low, const Json& high) {
+    accessors_[static_cast<std::size_t>(accessor)]["min"] = low;
+    accessors_[static_cast<std::size_t>(accessor)]["max"] = high;
+  }
+  void describe(Json& root) const {
+    root["accessors"] = accessors_;
+    root["bufferViews"] = views_;
+    root["buffers"] = Json::array({{{"byteLength", bytes_.size()}}});
+  }
+  [[nodiscard]] const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::string bytes_;
+  Json views_ = Json::array(), accessors_ = Json::array();
+};
+
+Json materialJson(const MeshMaterial& material) {
+  Json json = {{"name", material.name},
+               {"pbrMetallicRoughness",
+                {{"baseColorFactor", material.colour},
+                 {"metallicFactor", material.metallic},
+                 {"roughnessFactor", material.roughness}}}};
+  if (material.colour[3] < 1) json["alphaMode"] = "BLEND";
+  return json;
+}
+
+void addMesh(const Mesh& mesh, const DrawableMesh& drawable, const std::string& name,
+             Buffer& buffer, Json& root) {
+  const auto positions = allYUp(drawable.positions);
+  std::array<float, 3> low = positions.front(), high = low;
+  for (const auto& p : positions) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], p[axis]);
+      high[axis] = std::max(high[axis], p[axis]);
+    }
+  }
+  const int position = buffer.add(positions, "VEC3", kFloat, kVertexTarget);
+  buffer.setRange(position, low, high);
+  const int normal = buffer.add(allYUp(drawable.normals), "VEC3", kFloat, kVertexTarget);
+  Json primitives = Json::array(), materials = Json::array();
+  for (std::size_t i = 0; i < drawable.triangles.size(); ++i) {
+    if (drawable.triangles[i].empty()) continue;
+    const int indices = buffer.add(drawable.triangles[i], "SCALAR", kUnsignedInt, kIndexTarget);
+    primitives.push_back({{"attributes", {{"POSITION", position}, {"NORMAL", normal}}},
+                          {"indices", indices},
+                          {"material", materials.size()}});
+    materials.push_back(
+        materialJson(i < mesh.materials.size() ? mesh.materials[i] : MeshMaterial{"default"}));
+  }
+  root["meshes"] = Json::array({{{"name", name}, {"primitives", primitives}}});
+  root["materials"] = materials;
+}
+
+std::array<float, 3> translation(const Pose& pose) {
+  return yUp(static_cast<float>(pose.position.x()), static_cast<float>(pose.position.y()),
+             static_cast<float>(pose.position.z()));
+}
+
+/// glTF's order is x, y, z, w.
+std::array<float, 4> rotation(const Pose& pose) {
+  const Eigen::Quaterniond q = pose.orientation.normalized();
+  const auto axis = yUp(q.x(), q.y(), q.z());
+  return {static_cast<float>(axis[0]), static_cast<float>(axis[1]), static_cast<float>(axis[2]),
+          static_cast<float>(q.w())};
+}
+
+void addAnimation(const std::vector<AnimationKey>& keys, Buffer& buffer, Json& root) {
+  std::vector<float> times;
+  std::vector<std::array<float, 3>> translations;
+  std::vector<std::array<float, 4>> rotations;
+  for (const AnimationKey& key : keys) {
+    times.push_back(key.time);
+    translations.push_back(translation(key.pose));
+    rotations.push_back(rotation(key.pose));
+  }
+  const int input = buffer.add(times, "SCALAR", kFloat);
+  buffer.setRange(input, Json::array({times.front()}), Json::array({times.back()}));
+  Json samplers = Json::array(), channels = Json::array();
+  const auto channel = [&](int output, const char* path) {
+    channels.push_back({{"sampler", samplers.size()}, {"target", {{"node", 0}, {"path", path}}}});
+    samplers.push_back({{"input", input}, {"interpolation", "LINEAR"}, {"output", output}});
+  };
+  channel(buffer.add(translations, "VEC3", kFloat), "translation");
+  channel(buffer.add(rotations, "VEC4", kFloat), "rotation");
+  root["animations"] =
+      Json::array({{{"name", "motion"}, {"channels", channels}, {"samplers", samplers}}});
+}
+
+/// Flat lists of numbers and texts only: importers keep those as custom properties. The seed is a
+/// text because it can exceed what they hold in a number.
+Json extras(const Motion& motion) {
+  Json starts = Json::array(), ends = Json::array(), amplitudes = Json::array();
+  for (const MotionContact& contact : motion.contacts) {
+    starts.push_back(contact.time + motion.sound.firstContact);
+    ends.push_back(contact.end + motion.sound.firstContact);
+    amplitudes.push_back(contact.amplitude);
+  }
+  return {{"seed", std::to_string(motion.seed)},
+          {"sound", motion.sound.file},
+          {"first_contact", motion.sound.firstContact},
+          {"contact_starts", starts},
+          {"contact_ends", ends},
+          {"contact_amplitudes", amplitudes}};
+}
+
+void addScene(const Motion& motion, const AnimationKey& rest, const std::string& name, Json& root) {
+  root["asset"] = {{"version", "2.0"}, {"generator", "Inverse Foley " + motion.program}};
+  root["scene"] = 0;
+  root["scenes"] = Json::array({{{"name", "scene"}, {"nodes", Json::array({0})}}});
+  root["nodes"] = Json::array({{{"name", name},
+                                {"mesh", 0},
+                                {"translation", translation(rest.pose)},
+                                {"rotation", rotation(rest.pose)},
+                                {"extras", extras(motion)}}});
+}
+
+void appendWord(std::string& out, std::uint32_t word) {
+  char bytes[4];
+  std::memcpy(bytes, &word, 4);
+  out.append(bytes, 4);
+}
+
+/// The container: header, JSON padded with spaces, buffer (already a multiple of four).
+std::string container(std::string json, const std::string& buffer) {
+  json.append((4 - json.size() % 4) % 4, ' ');
+  std::string out = "glTF";
+  appendWord(out, 2);
+  appendWord(out, static_cast<std::uint32_t>(12 + 8 + json.size() + 8 + buffer.size()));
+  appendWord(out, static_cast<std::uint32_t>(json.size()));
+  out += "JSON" + json;
+  appendWord(out, static_cast<std::uint32_t>(buffer.size()));
+  out.append("BIN\0", 4);
+  return out + buffer;
+}
+
+double meshRadius(const Mesh& mesh) {
+  double radius = 0;
+  for (const Eigen::Vector3d& v : mesh.vertices) radius = std::max(radius, v.norm());
+  return radius;
+}
+
+tl::unexpected<Error> internalError(std::string message) {
+  return tl::unexpected<Error>(Error{ErrorCode::kInternal, std::move(message), "motion.glb", {}});
+}
+
+}  // namespace
+
+Result<std::string> formatGlb(const Motion& motion, const Body& body, const GlbSettings& settings) {
+  if (motion.trajectory.empty()) return internalError("the motion has no samples");
+  const DrawableMesh drawable = drawableMesh(body.mesh, settings.creaseDegrees);
+  if (drawable.positions.empty()) return internalError("the mesh has no triangles with an area");
+  const auto keys =
+      animationKeys(motion, settings.keyRate, meshRadius(body.mesh), settings.maxError);
+  const std::string& name = body.definition.name.empty() ? "body" : body.definition.name;
+  Json root;
+  Buffer buffer;
+  addScene(motion, keys.front(), name, root);
+  addMesh(body.mesh, drawable, name, buffer, root);
+  addAnimation(keys, buffer, root);
+  buffer.describe(root);
+  const std::string json = root.dump(-1, ' ', false, Json::error_handler_t::replace);
+  if (json.size() + buffer.bytes().size() > std::numeric_limits<std::uint32_t>::max() - 64) {
+    return internalError("the motion does not fit into a GLB file (4 GiB)");
+  }
+  return container(json, buffer.bytes());
+}
+
+Result<void> writeGlb(const std::filesystem::path& path, const Motion& motion, const Body& body,
+                      const GlbSettings& settings) {
+  const auto bytes = formatGlb(motion, body, settings);
+  if (!bytes) return tl::unexpected<Error>(bytes.error());
+  return writeFileAtomically(path, *bytes);
+}
+
+}  // namespace ifa
