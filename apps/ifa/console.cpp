@@ -26,8 +26,8 @@ void writeJson(const Json& json) {
 
 std::string remainingTime(double seconds) {
   if (seconds < 60) return fmt::format("{:.0f} s left", seconds);
-  return fmt::format("{:.0f} min {:02.0f} s left", static_cast<int>(seconds) / 60 * 1.0,
-                     static_cast<int>(seconds) % 60 * 1.0);
+  const auto whole = static_cast<long>(seconds);
+  return fmt::format("{} min {:02} s left", whole / 60, whole % 60);
 }
 
 }  // namespace

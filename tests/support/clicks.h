@@ -1,40 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "clicks.h"
+// Sounds of known contacts for tests. Tests that include this link PkgConfig::SNDFILE.
+#pragma once
 
 #include <fmt/core.h>
 #include <sndfile.h>
 
 #include <cmath>
-#include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <vector>
 
 namespace ifa::test {
 
-namespace {
+inline constexpr int kClickRate = 44100;
 
-constexpr int kRate = 44100;
+struct Click {
+  double time = 0;   ///< s
+  double level = 1;  ///< of full scale
+};
 
 // Starts with its loudest sample, so that the time of the contact is the time of the click.
-void addClick(std::vector<short>& samples, const Click& click) {
-  const auto first = static_cast<std::size_t>(std::lround(click.time * kRate));
+inline void addClick(std::vector<short>& samples, const Click& click) {
+  const auto first = static_cast<std::size_t>(std::lround(click.time * kClickRate));
   for (std::size_t i = 0; i < 400 && first + i < samples.size(); ++i) {
-    const double time = static_cast<double>(i) / kRate;
-    const double value =
-        click.level * std::exp(-time / 0.0015) * std::cos(time * 2.0 * 3.14159 * 2500);
+    const double time = static_cast<double>(i) / kClickRate;
+    const double value = click.level * std::exp(-time / 0.0015) * std::cos(time * 15708);
     samples[first + i] = static_cast<short>(std::lround(value * 32000));
   }
 }
 
-}  // namespace
-
-void writeClicks(const std::filesystem::path& path, const std::vector<Click>& clicks,
-                 double seconds) {
-  std::vector<short> samples(static_cast<std::size_t>(seconds * kRate), 0);
+/// Writes a mono WAV, 44.1 kHz, 16 bit: a short burst that dies away in a few ms at each time.
+inline void writeClicks(const std::filesystem::path& path, const std::vector<Click>& clicks,
+                        double seconds) {
+  std::vector<short> samples(static_cast<std::size_t>(seconds * kClickRate), 0);
   for (const Click& click : clicks) addClick(samples, click);
   SF_INFO info{};
-  info.samplerate = kRate;
+  info.samplerate = kClickRate;
   info.channels = 1;
   info.format = SF_FORMAT_WAV | SF_FORMAT_PCM_16;
   SNDFILE* file = sf_open(path.c_str(), SFM_WRITE, &info);
@@ -43,7 +45,8 @@ void writeClicks(const std::filesystem::path& path, const std::vector<Click>& cl
   sf_close(file);
 }
 
-void writeClickLabels(const std::filesystem::path& path, const std::vector<Click>& clicks) {
+/// Writes Audacity point labels at these times, the last one terminal.
+inline void writeClickLabels(const std::filesystem::path& path, const std::vector<Click>& clicks) {
   std::ofstream stream(path);
   for (std::size_t i = 0; i < clicks.size(); ++i) {
     const bool last = i + 1 == clicks.size();

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/batch.h"
+
+#include <gtest/gtest.h>
+
+#include "support/temporary_folder.h"
+
+namespace ifa {
+namespace {
+
+TEST(FindSounds, TakesSoundsAndSignaturesWithTheirLabels) {
+  const test::TemporaryFolder folder;
+  for (const char* name : {"b.WAV", "b.txt", "a.flac", "notes.txt", "c.signature.json", "c.txt",
+                           "known.json", "picture.png"}) {
+    test::writeText(folder / name, "");
+  }
+  std::filesystem::create_directory(folder / "d.wav");
+  const auto items = findSounds(folder.path()).value();
+  ASSERT_EQ(items.size(), 3U);
+  EXPECT_EQ(items[0].name, "a");
+  EXPECT_TRUE(items[0].labels.empty());
+  EXPECT_EQ(items[1].name, "b");
+  EXPECT_EQ(items[1].labels, folder / "b.txt");
+  EXPECT_EQ(items[2].name, "c");
+  EXPECT_TRUE(items[2].labels.empty()) << "a signature has its contacts already";
+}
+
+TEST(FindSounds, KeepsSoundsOfTheSameStemApart) {
+  const test::TemporaryFolder folder;
+  for (const char* name : {"a.wav", "a.ogg", "b.wav"}) test::writeText(folder / name, "");
+  const auto items = findSounds(folder.path()).value();
+  ASSERT_EQ(items.size(), 3U);
+  EXPECT_EQ(items[0].name, "a.ogg");
+  EXPECT_EQ(items[1].name, "a.wav");
+  EXPECT_EQ(items[2].name, "b");
+}
+
+TEST(FindSounds, SaysThatThereIsNone) {
+  const test::TemporaryFolder folder;
+  const auto none = findSounds(folder.path());
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().code, ErrorCode::kBadInput);
+  EXPECT_FALSE(findSounds(folder / "missing"));
+}
+
+}  // namespace
+}  // namespace ifa
