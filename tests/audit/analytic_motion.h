@@ -66,18 +66,19 @@ class MotionMaker {
   /// Free flight until the lowest vertex touches.
   void flyToGround() {
     const MotionSample start = now;
-    double high = 0;
+    MotionSample above = now;
     do {
+      above = now;
       drift(1e-4);
-      high += 1e-4;
     } while (lowest() > 0);
-    double low = high - 1e-4;
-    for (int i = 0; i < 60; ++i) {
+    double low = 0, high = 1e-4;
+    for (int i = 0; i < 50; ++i) {
       const double middle = 0.5 * (low + high);
-      now = start;
+      now = above;
       drift(middle);
       (lowest() > 0 ? low : high) = middle;
     }
+    low += above.time - start.time;
     now = start;
     fly(low);
   }
