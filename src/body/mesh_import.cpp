@@ -173,6 +173,21 @@ Result<void> checkFile(const std::filesystem::path& path) {
   return {};
 }
 
+// Importers add a default material even where no triangle has it.
+void dropUnusedMaterials(Mesh& mesh) {
+  std::vector<int> newIndex(mesh.materials.size(), -1);
+  std::vector<MeshMaterial> used;
+  for (int& material : mesh.triangleMaterial) {
+    int& index = newIndex[static_cast<std::size_t>(material)];
+    if (index < 0) {
+      index = static_cast<int>(used.size());
+      used.push_back(mesh.materials[static_cast<std::size_t>(material)]);
+    }
+    material = index;
+  }
+  mesh.materials = std::move(used);
+}
+
 void configure(Assimp::Importer& importer) {
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);
@@ -207,6 +222,7 @@ Result<Mesh> importMesh(const std::filesystem::path& path, double metresPerUnit)
     box.extend(vertex);
   }
   if (gatherer.mesh.triangles.empty()) return badInput("holds no triangles", place);
+  dropUnusedMaterials(gatherer.mesh);
   return weldVertices(gatherer.mesh, kWeldRelative * box.sizes().maxCoeff());
 }
 
