@@ -37,6 +37,7 @@ struct PlanRequest {
 
 /// One contact of a plan: the event as simulated, and the change of velocity that leads out of it.
 struct PlannedContact {
+  int target = 0;          ///< index of the signature's event that it meets
   ContactEvent event;      ///< times in the event's own simulation; `before` starts it
   double time = 0;         ///< start in the plan, s after the first contact
   double restitution = 0;  ///< used inside this event

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "planner/shooting_planner.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "planner/plan_difference.h"
+#include "planner/shooting_search.h"
+
+namespace ifa {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+PlannedContact contactOf(const ShootingNode& node) {
+  PlannedContact contact;
+  contact.event = node.event;
+  contact.time = node.start;
+  contact.restitution = node.restitution;
+  contact.relativeAmplitude = node.heard.amplitude;
+  contact.bend = node.bend;
+  contact.arrival = node.arrival;
+  return contact;
+}
+
+/// The factors of a contact, from its own numbers.
+ContactFactors factorsOf(const ShootingNode& node, const HeardEvent& target) {
+  ContactFactors factors;
+  factors.v = std::exp(logVelocity(node.bend));
+  factors.a = std::exp(logAmplitude(target, node.heard));
+  factors.l = std::exp(logDuration(target, node.heard));
+  factors.c = std::exp(logCentroid(target, node.heard));
+  return factors;
+}
+
+Plan planOf(const ShootingProblem& problem, const std::vector<ShootingNode>& path) {
+  Plan plan;
+  std::vector<double> bends;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const ShootingNode& node = path[i];
+    PlannedContact contact = contactOf(node);
+    contact.factors = factorsOf(node, problem.targets[static_cast<std::size_t>(node.level)]);
+    contact.target = node.level;
+    if (i > 0) {
+      plan.contacts.back().velocityChange = node.velocityChange;
+      plan.contacts.back().angularVelocityChange = node.angularChange;
+    }
+    plan.contacts.push_back(contact);
+    bends.push_back(node.bend);
+  }
+  const int n = path.back().level + 1;
+  const LogScore& log = path.back().log;
+  plan.score = log.score(n);
+  plan.scoreWithoutSound = log.scoreWithoutSound(n);
+  plan.meanFv = log.meanVelocity(n);
+  std::sort(bends.begin(), bends.end());
+  plan.bendMax = bends.back();
+  plan.bendMedian = 0.5 * (bends[(bends.size() - 1) / 2] + bends[bends.size() / 2]);
+  return plan;
+}
+
+/// A plan below this Score is not called solved (docs/method.md 5).
+constexpr double kLeastScore = 0.5;
+
+bool acceptable(const ShootingProblem& problem, const ShootingNode& node) {
+  return node.log.score(static_cast<int>(problem.targets.size())) >= kLeastScore;
+}
+
+/// The commonest reason for which no motion reached the next contact, and what would help.
+std::string reasonOf(const ShootingDeaths& d, double gap, bool terminal) {
+  const long flight = d.noFlight + d.bent + d.energy + d.earlier;
+  const long sum = flight + d.unheard + d.restless + d.noTime;
+  if (sum == 0) return "the search ended before it was tried";
+  if (d.noTime * 2 > sum) {
+    return fmt::format("{:.0f} ms leave no time after the contact before; merge the two labels",
+                       gap * 1e3);
+  }
+  if (terminal && d.restless > flight) {
+    return "no motion comes to rest there; a longer last label, or --no-terminal, would help";
+  }
+  if (d.unheard * 2 > sum)
+    return "the contact would be too soft to be heard; another object or surface?";
+  if (d.energy > d.earlier && d.energy * 3 > sum) {
+    return fmt::format(
+        "the gap of {:.0f} ms before it needs more energy than is left; a higher restitution or a "
+        "mark that was missed in the gap?",
+        gap * 1e3);
+  }
+  if (d.bent > d.earlier) {
+    return fmt::format(
+        "a gap of {:.0f} ms asks for an implausible bounce; a higher or lower restitution, or a "
+        "missed "
+        "or false mark near it?",
+        gap * 1e3);
+  }
+  return fmt::format(
+      "in the {:.0f} ms before it something always touches too early; a mark that was "
+      "missed there?",
+      gap * 1e3);
+}
+
+std::string failureOf(const ShootingProblem& problem, const ShootingSearch& search,
+                      const ShootingNode* farthest) {
+  const auto& events = problem.request.signature.events;
+  if (farthest == nullptr) {
+    return events.size() == 1 && problem.request.signature.terminal
+               ? "contact 1 at 0.000 s: no motion comes to rest in one contact as short as this"
+               : "contact 1 at 0.000 s: no initial state gives an audible contact";
+  }
+  const auto level = static_cast<std::size_t>(farthest->level);
+  if (level + 1 >= events.size()) {
+    return fmt::format(
+        "the best motion's Score is {:.2f}, under {:.1f}: marks or object do not fit",
+        farthest->log.score(static_cast<int>(events.size())), kLeastScore);
+  }
+  const bool terminal = level + 2 == events.size() && problem.request.signature.terminal;
+  return fmt::format("contact {} at {:.3f} s cannot be met: {}", level + 2, events[level + 1].time,
+                     reasonOf(search.deathsAfter(farthest->level),
+                              events[level + 1].time - events[level].time, terminal));
+}
+
+/// Gathers takes over the passes.
+class Takes {
+ public:
+  explicit Takes(const ShootingProblem& problem) : problem_(problem) {}
+
+  void add(const ShootingSearch& search) {
+    const auto wanted = static_cast<std::size_t>(problem_.request.settings.takes);
+    std::vector<Plan> found = std::move(plans_);
+    for (const ShootingNode& node : search.complete()) {
+      if (!acceptable(problem_, node)) break;
+      found.push_back(planOf(problem_, search.path(node)));
+      found.back().solved = true;
+    }
+    std::stable_sort(found.begin(), found.end(),
+                     [](const Plan& a, const Plan& b) { return a.score > b.score; });
+    plans_.clear();
+    for (Plan& plan : found) {
+      const bool isNew = std::all_of(plans_.begin(), plans_.end(), [&](const Plan& other) {
+        return differentPaths(plan, other);
+      });
+      if (isNew && plans_.size() < wanted) plans_.push_back(std::move(plan));
+    }
+  }
+  [[nodiscard]] bool enough() const {
+    return plans_.size() >= static_cast<std::size_t>(problem_.request.settings.takes);
+  }
+  [[nodiscard]] std::vector<Plan>& plans() { return plans_; }
+
+ private:
+  const ShootingProblem& problem_;
+  std::vector<Plan> plans_;
+};
+
+Result<void> check(const PlanRequest& request) {
+  const auto& events = request.signature.events;
+  if (events.empty())
+    return badInput("the signature has no events", "signature", "mark at least one contact");
+  for (std::size_t i = 1; i < events.size(); ++i) {
+    if (!(events[i].time > events[i - 1].time)) {
+      return badInput("events are out of order", fmt::format("event {}", i + 1));
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<std::vector<Plan>> ShootingPlanner::plan(const PlanRequest& request,
+                                                const Progress& progress) const {
+  if (const auto good = check(request); !good) return tl::unexpected(good.error());
+  const auto begin = Clock::now();
+  const double limit = request.settings.timeLimitSeconds;
+  const auto late = [&] {
+    return limit > 0 && std::chrono::duration<double>(Clock::now() - begin).count() > limit;
+  };
+  const auto stop = [&] { return progress.stopRequested() || late(); };
+  progress("learn", 0);
+  const ShootingProblem problem(request, settings_);
+  Takes takes(problem);
+  std::vector<Plan> partial;
+  const int passes =
+      std::max(1, static_cast<int>(std::lround(settings_.passes * request.settings.effort)));
+  for (int pass = 0; pass < passes && !stop(); ++pass) {
+    ShootingSearch search(problem, static_cast<std::uint64_t>(pass), 1 + 0.5 * pass);
+    search.run(stop, [&](double share) { progress("search", (pass + share) / passes); });
+    takes.add(search);
+    if (takes.plans().empty()) {
+      const ShootingNode* farthest = search.farthest();
+      Plan plan;
+      if (farthest != nullptr) plan = planOf(problem, search.path(*farthest));
+      plan.failure = failureOf(problem, search, farthest);
+      partial.push_back(std::move(plan));
+    }
+    if (takes.enough() && (pass > 0 || takes.plans()[0].score >= settings_.goodScore)) break;
+  }
+  if (progress.stopRequested() && takes.plans().empty()) {
+    return tl::unexpected<Error>({ErrorCode::kInterrupted, "interrupted", {}, {}});
+  }
+  std::vector<Plan> plans = std::move(takes.plans());
+  if (plans.empty()) {
+    const auto longest = std::max_element(
+        partial.begin(), partial.end(),
+        [](const Plan& a, const Plan& b) { return a.contacts.size() < b.contacts.size(); });
+    plans.push_back(longest != partial.end() ? *longest : Plan{});
+    if (late()) plans[0].failure = "the time limit was reached; " + plans[0].failure;
+  }
+  for (Plan& plan : plans) plan.timeLimitReached = late();
+  return plans;
+}
+
+Result<std::unique_ptr<Planner>> makePlanner(const std::string& name) {
+  if (name == "shoot") return std::make_unique<ShootingPlanner>();
+  return tl::unexpected<Error>(
+      {ErrorCode::kUsage, "there is no planner \"" + name + "\"", "--planner", "use shoot"});
+}
+
+}  // namespace ifa

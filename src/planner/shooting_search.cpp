@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "planner/shooting_search.h"
+
+#include <algorithm>
+#include <map>
+
+#include "base/parallel.h"
+#include "base/portable_math.h"
+#include "planner/shooting_worker.h"
+
+namespace ifa {
+
+namespace {
+
+constexpr std::size_t kBatch = 64;  ///< motions expanded before the bound is looked at again
+constexpr std::size_t kMostComplete = 64;
+constexpr double kNoBound = -1e300;
+
+bool better(const ShootingNode& a, const ShootingNode& b) { return a.log.total() > b.log.total(); }
+
+}  // namespace
+
+ShootingProblem::ShootingProblem(const PlanRequest& planned, const ShootingSettings& tuning)
+    : request(planned), settings(tuning), model(*planned.body, planned.surface) {
+  recorder.mergeGap = planned.body->definition.mergeGap;
+  recorder.weight = model.mass * kGravity;
+  recorder.threshold = 0.01 * planned.surface.referenceImpulse;
+  std::vector<double> starts, amplitudes;
+  for (const SignatureEvent& event : planned.signature.events) {
+    targets.push_back({event.amplitude, event.duration, event.centroid});
+    starts.push_back(event.time);
+    amplitudes.push_back(event.amplitude);
+  }
+  for (std::size_t k = 0; k + 1 < targets.size(); ++k) {
+    features.push_back(EnergyOutlook::features(starts, amplitudes, k));
+  }
+  if (targets.size() > 1) {
+    outlook = EnergyOutlook::learn(*planned.body, model, recorder, settings.outlookDrops);
+  }
+}
+
+void ShootingDeaths::operator+=(const ShootingDeaths& o) {
+  noTime += o.noTime;
+  noFlight += o.noFlight;
+  bent += o.bent;
+  energy += o.energy;
+  earlier += o.earlier;
+  unheard += o.unheard;
+  restless += o.restless;
+}
+
+ShootingSearch::ShootingSearch(const ShootingProblem& problem, std::uint64_t pass, double width)
+    : problem_(problem),
+      pass_(pass),
+      width_(width),
+      levels_(problem.targets.size()),
+      deaths_(problem.targets.size()) {}
+
+void ShootingSearch::run(const std::function<bool()>& stop,
+                         const std::function<void(double)>& progress) {
+  plantRoots(stop);
+  const std::size_t n = levels_.size();
+  for (std::size_t level = 0; level < n && !stop(); ++level) {
+    if (level + 1 == n) {
+      complete_ = levels_[level];
+      std::stable_sort(complete_.begin(), complete_.end(), better);
+      if (complete_.size() > kMostComplete) complete_.resize(kMostComplete);
+      break;
+    }
+    keepBest(levels_[level]);
+    expandLevel(level, stop);
+    progress(static_cast<double>(level + 1) / static_cast<double>(n));
+  }
+}
+
+void ShootingSearch::plantRoots(const std::function<bool()>& stop) {
+  const auto count = static_cast<std::size_t>(problem_.settings.firstContacts * width_);
+  const std::size_t batches = (count + kBatch - 1) / kBatch;
+  std::vector<std::vector<ShootingNode>> made(batches);
+  parallelFor(batches, [&](std::size_t batch) {
+    if (stop()) return;
+    ShootingWorker worker(problem_);
+    for (std::size_t i = batch * kBatch; i < std::min(count, (batch + 1) * kBatch); ++i) {
+      worker.plant(static_cast<unsigned>(i), problem_.request.settings.seed + (pass_ << 32));
+    }
+    made[batch] = std::move(worker.children);
+  });
+  for (auto& nodes : made) levels_[0].insert(levels_[0].end(), nodes.begin(), nodes.end());
+}
+
+void ShootingSearch::expandLevel(std::size_t level, const std::function<bool()>& stop) {
+  const auto& events = problem_.request.signature.events;
+  const std::size_t n = events.size();
+  for (std::size_t next = level + 1; next < n; ++next) {
+    const bool last = next + 1 == n;
+    double bound = kNoBound;
+    for (std::size_t begin = 0; begin < levels_[level].size() && !stop(); begin += kBatch) {
+      const std::size_t end = std::min(levels_[level].size(), begin + kBatch);
+      std::vector<ShootingWorker> workers(end - begin, ShootingWorker(problem_));
+      parallelFor(end - begin, [&](std::size_t i) {
+        if (stop()) return;
+        const std::size_t index = begin + i;
+        const RandomStream random(problem_.request.settings.seed ^ (pass_ << 48),
+                                  (static_cast<std::uint64_t>(level) << 40) + (next << 24) + index);
+        workers[i].expand(levels_[level][index], static_cast<int>(index), static_cast<int>(next),
+                          random, bound);
+      });
+      for (ShootingWorker& worker : workers) {
+        deaths_[level] += worker.deaths;
+        auto& to = levels_[next];
+        to.insert(to.end(), worker.children.begin(), worker.children.end());
+      }
+      // Of complete motions only the best few matter; at other contacts rank decides later.
+      if (last && levels_[next].size() > kMostComplete) {
+        auto& done = levels_[next];
+        std::stable_sort(done.begin(), done.end(), better);
+        done.resize(kMostComplete);
+        bound = done.back().log.total();
+      }
+    }
+    if (events[next].weight >= 1) break;
+  }
+}
+
+void ShootingSearch::keepBest(std::vector<ShootingNode>& candidates) const {
+  const auto& set = problem_.settings;
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const auto& a, const auto& b) { return a.rank > b.rank; });
+  std::map<std::pair<int, int>, int> ofParent;
+  std::map<unsigned, int> ofRoot;
+  std::map<int, int> ofBin;
+  std::vector<ShootingNode> kept;
+  const auto most = static_cast<std::size_t>(set.beam * width_);
+  for (const ShootingNode& node : candidates) {
+    if (kept.size() >= most) break;
+    const double above = std::max(node.energyAfter - problem_.outlook.restEnergy(), 1e-12);
+    const int bin = static_cast<int>(portableLog(above) / set.energyBin + 1000);
+    int& parent = ofParent[{node.parentLevel, node.parent}];
+    int &root = ofRoot[node.root], &energy = ofBin[bin];
+    const bool full = (node.parent >= 0 && parent >= set.perParent) || root >= set.perRoot ||
+                      energy >= static_cast<int>(set.perEnergyBin * width_);
+    if (full) continue;
+    ++parent;
+    ++root;
+    ++energy;
+    kept.push_back(node);
+  }
+  candidates = std::move(kept);
+}
+
+const ShootingNode* ShootingSearch::farthest() const {
+  for (auto level = levels_.rbegin(); level != levels_.rend(); ++level) {
+    if (!level->empty()) return &*std::min_element(level->begin(), level->end(), better);
+  }
+  return nullptr;
+}
+
+std::vector<ShootingNode> ShootingSearch::path(const ShootingNode& node) const {
+  std::vector<ShootingNode> nodes = {node};
+  while (nodes.back().parent >= 0) {
+    const ShootingNode& last = nodes.back();
+    nodes.push_back(
+        levels_[static_cast<std::size_t>(last.parentLevel)][static_cast<std::size_t>(last.parent)]);
+  }
+  std::reverse(nodes.begin(), nodes.end());
+  return nodes;
+}
+
+}  // namespace ifa

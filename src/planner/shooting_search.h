@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// One pass of guided shooting: beam search over live simulation (docs/planner.md).
+#pragma once
+
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "affinity/factors.h"
+#include "base/random.h"
+#include "planner/energy_outlook.h"
+#include "planner/event_simulation.h"
+#include "planner/flight_timing.h"
+#include "planner/planner.h"
+#include "planner/shooting_settings.h"
+
+namespace ifa {
+
+/// Everything that is the same for all passes of one plan.
+struct ShootingProblem {
+  ShootingProblem(const PlanRequest& planned, const ShootingSettings& tuning);
+
+  const PlanRequest& request;
+  ShootingSettings settings;
+  BodyModel model;
+  RecorderSettings recorder;
+  EnergyOutlook outlook;
+  std::vector<HeardEvent> targets;
+  std::vector<EnergyOutlook::Features> features;  ///< of what follows each target but the last
+};
+
+/// A motion up to one contact.
+struct ShootingNode {
+  int parent = -1, parentLevel = -1, level = 0;
+  unsigned root = 0;
+  ContactEvent event;                                        ///< in its own time, from 0
+  double start = 0;                                          ///< s after the first contact
+  double restitution = 0;                                    ///< inside this event
+  Eigen::Vector3d velocityChange = Eigen::Vector3d::Zero();  ///< that leads here from the parent
+  Eigen::Vector3d angularChange = Eigen::Vector3d::Zero();
+  double bend = 0;
+  Arrival arrival = Arrival::kFlight;
+  HeardEvent heard;
+  double firstAmplitude = 1;  ///< N s
+  LogScore log;
+  double rank = 0;
+  double energyBefore = 0, energyAfter = 0;  ///< J
+};
+
+/// Why children died, to tell the user which contact fails and why.
+struct ShootingDeaths {
+  long noTime = 0, noFlight = 0, bent = 0, energy = 0, earlier = 0, unheard = 0, restless = 0;
+  void operator+=(const ShootingDeaths& other);
+};
+
+class ShootingSearch {
+ public:
+  ShootingSearch(const ShootingProblem& problem, std::uint64_t pass, double width);
+
+  /// Searches; `stop` is asked between batches and ends the search early.
+  void run(const std::function<bool()>& stop, const std::function<void(double)>& progress);
+
+  /// Complete motions, best first (at most a few dozen).
+  [[nodiscard]] const std::vector<ShootingNode>& complete() const { return complete_; }
+  /// The best of the motions that got farthest; nothing when not even a first contact was found.
+  [[nodiscard]] const ShootingNode* farthest() const;
+  /// From the first contact to `node`.
+  [[nodiscard]] std::vector<ShootingNode> path(const ShootingNode& node) const;
+  [[nodiscard]] const ShootingDeaths& deathsAfter(int level) const {
+    return deaths_[static_cast<std::size_t>(level)];
+  }
+
+ private:
+  void plantRoots(const std::function<bool()>& stop);
+  void expandLevel(std::size_t level, const std::function<bool()>& stop);
+  void keepBest(std::vector<ShootingNode>& candidates) const;
+
+  const ShootingProblem& problem_;
+  std::uint64_t pass_;
+  double width_;
+  std::vector<std::vector<ShootingNode>> levels_;  ///< kept, by target
+  std::vector<ShootingDeaths> deaths_;             ///< on the way out of each level
+  std::vector<ShootingNode> complete_;
+};
+
+}  // namespace ifa

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tunables of the shooting planner; docs/planner.md says what each is worth.
+#pragma once
+
+namespace ifa {
+
+struct ShootingSettings {
+  int firstContacts = 3000;  ///< initial states tried
+  int beam = 300;            ///< partial motions kept from one contact to the next
+  int children = 8;          ///< changes of velocity tried on each
+  int lastContacts = 2;      ///< contacts before the end that get more ...
+  int lastFactor = 6;        ///< ... by this factor: few motions come to rest exactly there
+  int perParent = 3;         ///< of the kept ones, at most so many have one parent, ...
+  int perRoot = 30;          ///< ... one first contact, ...
+  int perEnergyBin =
+      50;  ///< ... and energies within one bin of log(energy), so that the beam keeps
+  double energyBin = 0.3;      ///< motions that can still do different things
+  double spread = 0.45;        ///< standard deviation of a change, in units of the plausible region
+  double outlookWeight = 0.5;  ///< of the energy outlook beyond one standard deviation
+  double hopeless = 8;  ///< log units that a motion without a way to the next contact loses in rank
+  int silentTries = 2;  ///< directions tried where the next contact comes after silent contact
+  double restitutionRange = 0.2;  ///< relative, inside continuous and last events
+  double dropPenalty = 6;         ///< log units for an event of weight 1 that was dropped
+  int passes = 6;                 ///< searches with other seeds and wider beams, at most
+  double goodScore = 0.9;         ///< enough to stop after the first pass
+  int outlookDrops = 3000;        ///< drops from which the energy outlook is learnt
+};
+
+}  // namespace ifa

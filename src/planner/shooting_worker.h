@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// What one thread does in a pass of guided shooting: makes the children of one partial motion.
+#pragma once
+
+#include <vector>
+
+#include "planner/shooting_search.h"
+
+namespace ifa {
+
+/// Not thread safe; make one per item of work.
+class ShootingWorker {
+ public:
+  explicit ShootingWorker(const ShootingProblem& problem)
+      : problem_(problem), simulation_(problem.model, problem.recorder) {}
+
+  /// Motions of one contact, from sampled initial state number `root`.
+  void plant(unsigned root, std::uint64_t seed);
+  /// Motions from `node` to target `level` (later than the node's own).
+  /// @param bound  children whose log score cannot get above are not simulated
+  void expand(const ShootingNode& node, int index, int level, RandomStream random, double bound);
+
+  std::vector<ShootingNode> children;
+  ShootingDeaths deaths;
+
+ private:
+  struct Edge {
+    Eigen::Vector3d velocityChange, angularChange;
+    double bend = 0;
+    Arrival arrival = Arrival::kFlight;
+    double duration = 0;
+  };
+
+  void shoot(const ShootingNode& node, ShootingNode child, const PlausibleRegion& region,
+             const Coordinates& wish, double duration, double restitution, double bound);
+  void shootSilently(const ShootingNode& node, ShootingNode child, const PlausibleRegion& region,
+                     const Coordinates& direction, double duration, double restitution,
+                     double bound);
+  void arrive(const ShootingNode& node, ShootingNode child, const Edge& edge,
+              const RigidState& arrival, double restitution, double bound);
+  void judge(ShootingNode& child) const;
+  [[nodiscard]] double lookAhead(const ShootingNode& node) const;
+  [[nodiscard]] double droppedBetween(int from, int to) const;
+  [[nodiscard]] double variedRestitution(int level, int attempt, RandomStream& random) const;
+  [[nodiscard]] PlausibleRegion regionOf(const ContactEvent& event) const;
+
+  const ShootingProblem& problem_;
+  mutable EventSimulation simulation_;
+  std::vector<ContactEvent> outcomes_;
+};
+
+}  // namespace ifa
