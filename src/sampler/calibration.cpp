@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sampler/calibration.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <string>
 
 #include "dynamics/simulator.h"
 #include "sampler/drop_statistics.h"
@@ -10,6 +13,9 @@ namespace ifa {
 namespace {
 
 constexpr int kBisections = 9;  // the range of 0.6 down to 0.001
+
+/// What the sample supports, and what a person can read in an object file.
+double fourDigits(double value) { return std::stod(fmt::format("{:.4g}", value)); }
 
 /// Bisects one property of the surface, of which the number of events is a rising function.
 class Bisection {
@@ -68,7 +74,7 @@ SurfaceMeasurement measureSurface(const Body& body, const SurfaceProperties& sur
   const DropStatistics all = gather(settings.simulations);
   SurfaceMeasurement measured;
   measured.eventsPerSimulation = mean(all.paperEvents);
-  measured.referenceImpulse = median(all.largestImpulse);
+  measured.referenceImpulse = fourDigits(median(all.largestImpulse));
   measured.restTime = mean(all.restTimes);
   measured.unfinished = all.unfinished;
   // Audible events need J_ref, known only now; a part of the drops is enough for a figure to print.
