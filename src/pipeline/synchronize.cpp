@@ -37,10 +37,7 @@ Result<void> checkSettings(const SynchronizeSettings& settings) {
   if (auto good = checkRange(settings.takes, 1, kMaxTakes, "takes"); !good) return good;
   if (auto good = checkRange(settings.timeLimitSeconds, 0, 1e6, "time limit"); !good) return good;
   if (auto good = checkRange(settings.energyGain, 0, 10, "energy gain"); !good) return good;
-  if (auto good = checkRange(settings.preRollSeconds, 0, 10, "pre-roll"); !good) return good;
-  if (settings.planner == "shoot") return {};
-  return usage("there is no planner \"" + settings.planner + "\" in this version", "planner",
-               "choose shoot");
+  return checkRange(settings.preRollSeconds, 0, 10, "pre-roll");
 }
 
 // The library that the settings name goes before the program's own.
