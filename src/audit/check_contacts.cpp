@@ -39,6 +39,17 @@ std::string whyNotFound(const Evidence& all, std::size_t index) {
   return wrong;
 }
 
+/// The file and the object speak of the same thing.
+AuditCheck sameObject(const Evidence& all) {
+  constexpr double kSameMass = 1e-6;
+  Worst worst;
+  if (all.body.definition.surfaces.count(all.motion.object.surface) == 0) {
+    worst.see(1, 0, "the object has no surface called " + all.motion.object.surface);
+  }
+  worst.see(std::abs(all.motion.object.mass / all.mass - 1), 0, "another mass");
+  return worst.check("object", "share", kSameMass);
+}
+
 AuditCheck starts(const Evidence& all) {
   Worst worst;
   for (std::size_t i = 0; i < all.motion.contacts.size(); ++i) {
@@ -74,6 +85,7 @@ AuditCheck unlisted(const Evidence& all) {
 }  // namespace
 
 void checkContacts(const Evidence& all, Checks& checks) {
+  checks.push_back(sameObject(all));
   checks.push_back(starts(all));
   checks.push_back(found(all));
   checks.push_back(unlisted(all));

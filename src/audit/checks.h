@@ -19,7 +19,8 @@ void checkSamples(const Motion& motion, Checks& checks);
 /// checks need it.
 [[nodiscard]] bool canBeJudged(const Motion& motion);
 
-/// "contact starts" against targets; "contacts found" in the trajectory; "unlisted contacts".
+/// "object": its mass and surface; "contact starts" against targets; "contacts found" in the
+/// trajectory; "unlisted contacts".
 void checkContacts(const Evidence& all, Checks& checks);
 
 /// "flight position", "flight angle", "flight velocity", "angular momentum".

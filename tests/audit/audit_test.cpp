@@ -58,6 +58,15 @@ TEST(Audit, PassesABounceAfterTheLastContact) {
   EXPECT_TRUE(report.passed()) << formatAudit(report);
 }
 
+TEST(Audit, CatchesAnotherObject) {
+  Motion motion = makeTumblingMotion(box());
+  motion.object.mass *= 1.001;
+  EXPECT_TRUE(fails(motion, "object"));
+  motion = makeTumblingMotion(box());
+  motion.object.surface = "ice";
+  EXPECT_TRUE(fails(motion, "object"));
+}
+
 TEST(Audit, CatchesAShiftedStart) {
   Motion motion = makeTumblingMotion(box());
   motion.contacts[2].targetTime += 2e-4;
@@ -275,6 +284,22 @@ TEST(Audit, CatchesUglyContacts) {
   motion.contacts[1].bend = 2.5;
   EXPECT_TRUE(fails(motion, "bend"));
   EXPECT_NEAR(audit(motion, box()).bendShareOverOne, 0.2, 1e-12);
+}
+
+TEST(Audit, CatchesABendThatIsStatedTooSmall) {
+  // A tenth of what the third contact does is said to be a change that was added.
+  Motion motion = makeTumblingMotion(box());
+  const std::size_t after = sampleAt(motion, motion.contacts[2].time) + 1;
+  const Eigen::Vector3d jump =
+      motion.trajectory[after].velocity - motion.trajectory[after - 1].velocity;
+  motion.contacts[3].impulseChange = box().mass * 0.1 * jump;
+  // 0.1 of the jump against 0.4 of the remaining 0.9 of it.
+  motion.contacts[3].bend = 0.1 / (0.4 * 0.9) + 1e-9;
+  EXPECT_FALSE(fails(motion, "bend understated"));
+  motion.contacts[3].bend -= 1e-3;
+  EXPECT_TRUE(fails(motion, "bend understated"));
+  motion.contacts[3].impulseChange = box().mass * 0.5 * jump;
+  EXPECT_TRUE(fails(motion, "bend"));
 }
 
 TEST(Audit, CatchesBrokenSamples) {
