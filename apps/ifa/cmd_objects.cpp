@@ -164,6 +164,13 @@ int make(const ObjectsOptions& options, CommandContext& context) {
   for (const MeshProblem& problem : inspectMesh(body->mesh).problems) {
     context.console.warn(problem.message + " (" + problem.remedy + ")");
   }
+  constexpr std::size_t kQuickHull = 1000;
+  if (body->hull.size() > kQuickHull) {
+    context.console.warn(
+        fmt::format("its hull has {} vertices, which makes every simulation slow "
+                    "(simplify the mesh; a hundred are plenty)",
+                    body->hull.size()));
+  }
   context.console.result(bodyText(*body));
   return context.succeed(options.output);
 }

@@ -179,7 +179,9 @@ Result<std::vector<Vector3d>> convexHull(const std::vector<Vector3d>& points,
     if (!corners) return flat();
     std::vector<Vector3d> kept = withoutFlatCorners(*corners, remaining, relativeTolerance * size);
     if (kept.size() < 4) return flat();
-    if (kept.size() == corners->size()) return kept;
+    // Rounds cost seconds on a hull of many thousands, where a corner too many does not matter.
+    constexpr std::size_t kFewEnoughForRounds = 10'000;
+    if (kept.size() == corners->size() || kept.size() > kFewEnoughForRounds) return kept;
     remaining = std::move(kept);
   }
 }
