@@ -57,6 +57,8 @@ def check_file(path, allowed):
         folder = name.split("/")[0] if "/" in name else None
         if folder is None and (path.parent / name).is_file():
             continue
+        if path.is_relative_to(ROOT / "apps") and (ROOT / "apps" / name).is_file():
+            continue
         if folder == "ifa" and (ROOT / "include" / name).is_file():
             continue
         if folder is None or not (ROOT / "src" / name).is_file():

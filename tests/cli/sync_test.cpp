@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// `ifa sync` from the shell's side: files, exit codes, streams.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "run_program.h"
+#include "support/clicks.h"
+#include "support/temporary_folder.h"
+
+namespace ifa::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+// The rhythm of a die that bounces five times; the recording starts later than the pre-roll.
+const std::vector<Click> kThrow = {
+    {0.20, 0.9}, {0.42, 0.5}, {0.55, 0.35}, {0.63, 0.2}, {0.68, 0.12}};
+
+class Sync : public testing::Test {
+ protected:
+  void SetUp() override {
+    writeClicks(folder_ / "throw.wav", kThrow, 1.2);
+    writeClickLabels(folder_ / "throw.txt", kThrow);
+  }
+  std::vector<std::string> command(const std::string& out,
+                                   const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> words = {
+        "sync", folder_ / "throw.wav", "--labels", folder_ / "throw.txt", "--object", "d6",
+        "-o",   folder_ / out};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
+  json motion(const std::string& out) const {
+    return json::parse(readText(folder_ / out / "motion.json"));
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(Sync, PutsEveryContactOnTheSound) {
+  const auto result = runProgram(command("out"));
+  ASSERT_EQ(result.exit, 0) << result.err;
+  EXPECT_THAT(result.err, IsEmpty());
+  const auto found = motion("out");
+  EXPECT_TRUE(found.at("success").get<bool>());
+  ASSERT_EQ(found.at("contacts").size(), kThrow.size());
+  for (std::size_t i = 0; i < kThrow.size(); ++i) {
+    const auto& contact = found.at("contacts")[i];
+    EXPECT_NEAR(contact.at("time").get<double>(), kThrow[i].time - kThrow[0].time, 1e-4);
+    EXPECT_NEAR(contact.at("target_time").get<double>(), kThrow[i].time - kThrow[0].time, 1e-9);
+  }
+}
+
+TEST_F(Sync, WritesAFolderThatStandsAlone) {
+  ASSERT_EQ(runProgram(command("out")).exit, 0);
+  const auto found = motion("out");
+  for (const char* name : {"motion.json", "motion.glb", "sound.wav", "timeline.svg", "d6.json"}) {
+    EXPECT_GT(fs::file_size(folder_ / "out" / name), 0U) << name;
+  }
+  EXPECT_TRUE(fs::exists(folder_ / "out" / found.at("object").at("mesh").get<std::string>()));
+  // Silence was put in front, so that the motion begins within the sound.
+  const double begin = found.at("trajectory").at("time").front().get<double>();
+  const double firstContact = found.at("sound").at("first_contact").get<double>();
+  EXPECT_GE(firstContact + begin, -1e-9);
+  EXPECT_NEAR(found.at("sound").at("duration").get<double>(), 1.2 + firstContact - 0.2, 1e-4);
+  EXPECT_EQ(runProgram({"verify", folder_ / "out/motion.json"}).exit, 0);
+}
+
+// The one field that tells of this run and not of the motion.
+std::string withoutTiming(const std::string& text) {
+  return std::regex_replace(text, std::regex("\"search_seconds\": *[-+.0-9e]+"), "");
+}
+
+TEST_F(Sync, GivesTheSameMotionForAnyNumberOfThreads) {
+  ASSERT_EQ(runProgram(command("one", {"--threads", "1"})).exit, 0);
+  ASSERT_EQ(runProgram(command("two", {"--threads", "2"})).exit, 0);
+  const auto one = withoutTiming(readText(folder_ / "one/motion.json"));
+  EXPECT_EQ(one, withoutTiming(readText(folder_ / "two/motion.json")));
+  EXPECT_EQ(readText(folder_ / "one/motion.glb"), readText(folder_ / "two/motion.glb"));
+  ASSERT_EQ(runProgram(command("other", {"--seed", "2"})).exit, 0);
+  EXPECT_NE(one, withoutTiming(readText(folder_ / "other/motion.json")));
+}
+
+TEST_F(Sync, GivesSeveralTakesInFoldersOfTheirOwn) {
+  ASSERT_EQ(runProgram(command("out", {"--takes", "2", "--formats", "json"})).exit, 0);
+  const auto first = json::parse(readText(folder_ / "out/take-1/motion.json"));
+  const auto second = json::parse(readText(folder_ / "out/take-2/motion.json"));
+  EXPECT_GE(first.at("score").get<double>(), second.at("score").get<double>());
+  EXPECT_NE(first.at("trajectory"), second.at("trajectory"));
+  EXPECT_FALSE(fs::exists(folder_ / "out/take-1/motion.glb"));
+  // One motion afterwards replaces them, and leaves what is the user's.
+  writeText(folder_ / "out/mine.txt", "x");
+  ASSERT_EQ(runProgram(command("out", {"--formats", "json"})).exit, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "out/take-1/motion.json"));
+  EXPECT_TRUE(fs::exists(folder_ / "out/mine.txt"));
+}
+
+TEST_F(Sync, TellsAProgramWhatItDoes) {
+  const auto result = runProgram(command("out", {"--json-progress"}));
+  ASSERT_EQ(result.exit, 0);
+  const auto lines = linesOf(result.err);
+  ASSERT_GE(lines.size(), 2U);
+  for (const auto& line : lines) {
+    const auto parsed = json::parse(line);
+    if (parsed.at("type") != "progress") continue;
+    EXPECT_THAT(parsed.at("stage").get<std::string>(), testing::Not(IsEmpty()));
+    EXPECT_GE(parsed.at("value").get<double>(), 0.0);
+    EXPECT_LE(parsed.at("value").get<double>(), 1.0);
+  }
+  EXPECT_EQ(json::parse(lines.back()).at("type"), "success");
+}
+
+TEST_F(Sync, WritesTheBestPartialMotionWhereNoneIsPossible) {
+  // A die that bounces for the first time after four seconds would have to fall from 20 m.
+  const std::vector<Click> gap = {{0.2, 0.9}, {4.2, 0.5}, {4.3, 0.3}};
+  writeClicks(folder_ / "throw.wav", gap, 5);
+  writeClickLabels(folder_ / "throw.txt", gap);
+  const auto result = runProgram(command("out"));
+  EXPECT_EQ(result.exit, 4);
+  EXPECT_THAT(result.err, HasSubstr("contact"));
+  const auto found = motion("out");
+  EXPECT_FALSE(found.at("success").get<bool>());
+  EXPECT_THAT(found.at("failure").get<std::string>(), testing::Not(IsEmpty()));
+}
+
+TEST_F(Sync, DoesAFolderOfSoundsAndListsFailures) {
+  fs::create_directory(folder_ / "in");
+  for (const char* name : {"throw.wav", "throw.txt"}) {
+    fs::rename(folder_ / name, folder_ / "in" / name);
+  }
+  writeText(folder_ / "in/bad.wav", "this is no sound");
+  const std::vector<std::string> words = {"sync", folder_ / "in",  "--object",  "d6",
+                                          "-o",   folder_ / "out", "--formats", "json"};
+  const auto result = runProgram(words);
+  EXPECT_EQ(result.exit, 4);
+  EXPECT_THAT(result.out, HasSubstr("bad.wav"));
+  EXPECT_TRUE(fs::exists(folder_ / "out/throw/motion.json"));
+  EXPECT_FALSE(fs::exists(folder_ / "out/bad"));
+  const auto before = fs::last_write_time(folder_ / "out/throw/motion.json");
+  fs::remove(folder_ / "in/bad.wav");
+  EXPECT_EQ(runProgram(words).exit, 0);
+  EXPECT_EQ(fs::last_write_time(folder_ / "out/throw/motion.json"), before) << "done before";
+}
+
+TEST_F(Sync, CanBeInterrupted) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const auto result =
+        runAndSignal(command("out", {"--takes", "32", "--json-progress"}), "\"progress\"", signal);
+    EXPECT_EQ(result.exit, 5) << result.err;
+    const auto last = json::parse(linesOf(result.err).back());
+    EXPECT_EQ(last.at("type"), "failure");
+    EXPECT_EQ(last.at("code"), 5);
+    // What was finished is kept; nothing half-written is left.
+    for (const auto& name : folder_.names()) EXPECT_THAT(name, testing::Not(HasSubstr(".ifa-")));
+  }
+}
+
+}  // namespace
+}  // namespace ifa::test
