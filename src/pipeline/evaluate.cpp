@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/evaluate.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+#include <thread>
+
+#include "ifa/synchronize.h"
+
+namespace ifa {
+namespace {
+
+constexpr double kSolvedScore = 0.5;      // method, 5
+constexpr double kStartTolerance = 1e-4;  // s, likewise
+
+bool isSolved(const Motion& motion, const CaseOutcome& outcome) {
+  return motion.success && outcome.contacts == static_cast<int>(motion.contacts.size()) &&
+         outcome.score >= kSolvedScore && outcome.startError <= kStartTolerance &&
+         motion.bend.max <= motion.bend.cap;
+}
+
+std::string whyNot(const Motion& motion, const CaseOutcome& outcome) {
+  if (outcome.solved) return {};
+  if (!motion.failure.empty()) return motion.failure;
+  if (outcome.score < kSolvedScore) return "the Score is under 0.5";
+  return "a contact is missing, late or bent too much";
+}
+
+void judge(const Motion& motion, CaseOutcome& outcome) {
+  outcome.score = motion.score;
+  outcome.scoreWithoutSound = motion.scoreWithoutSound;
+  outcome.meanFv = motion.meanFv;
+  outcome.searchSeconds = motion.searchSeconds;
+  for (const MotionContact& contact : motion.contacts) {
+    outcome.bends.push_back(contact.bend);
+    outcome.startError = std::max(outcome.startError, std::abs(contact.time - contact.targetTime));
+  }
+  outcome.solved = isSolved(motion, outcome);
+  outcome.failure = whyNot(motion, outcome);
+}
+
+SynchronizeSettings settingsFor(const EvaluateSettings& settings, const EvaluationCase& what) {
+  SynchronizeSettings one;
+  one.sound = what.sound;
+  one.labels = what.labels;
+  one.object = what.object;
+  one.surface = what.surface;
+  one.planner = settings.planner;
+  one.seed = settings.seed;
+  one.timeLimitSeconds = settings.timeLimitSeconds;
+  return one;
+}
+
+CaseOutcome runCase(const EvaluateSettings& settings, const EvaluationCase& what,
+                    const Progress& progress) {
+  CaseOutcome outcome;
+  outcome.what = what;
+  const auto begin = std::chrono::steady_clock::now();
+  const auto found = synchronize(settingsFor(settings, what), progress);
+  outcome.wallSeconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  outcome.done = !progress.stopRequested();
+  if (!found) {
+    outcome.failure = found.error().text();
+    return outcome;
+  }
+  outcome.contacts = static_cast<int>(found->signature.events.size());
+  judge(found->takes.front(), outcome);
+  return outcome;
+}
+
+/// Takes cases in order, several threads at a time, and writes outcomes by index.
+class CaseQueue {
+ public:
+  CaseQueue(const EvaluateSettings& settings, const std::vector<EvaluationCase>& cases,
+            const Progress& progress, const std::function<void(const CaseOutcome&)>& tell)
+      : settings_(settings), cases_(cases), progress_(progress), tell_(tell) {
+    outcomes_.resize(cases.size());
+  }
+
+  std::vector<CaseOutcome> run() {
+    std::vector<std::jthread> workers;
+    for (int i = 1; i < settings_.jobs; ++i) workers.emplace_back([this] { work(); });
+    work();
+    workers.clear();  // waits
+    return std::move(outcomes_);
+  }
+
+ private:
+  void work() {
+    Progress inner;  // the stages of one case say nothing about the whole
+    inner.stop = progress_.stop;
+    for (std::size_t i; (i = next_++) < cases_.size() && !progress_.stopRequested();) {
+      CaseOutcome outcome = runCase(settings_, cases_[i], inner);
+      const std::lock_guard lock(mutex_);
+      progress_("evaluate", static_cast<double>(++done_) / static_cast<double>(cases_.size()));
+      if (tell_ && outcome.done) tell_(outcome);
+      outcomes_[i] = std::move(outcome);
+    }
+  }
+
+  const EvaluateSettings& settings_;
+  const std::vector<EvaluationCase>& cases_;
+  const Progress& progress_;
+  const std::function<void(const CaseOutcome&)>& tell_;
+  std::atomic<std::size_t> next_{0};
+  std::mutex mutex_;
+  std::size_t done_ = 0;
+  std::vector<CaseOutcome> outcomes_;
+};
+
+std::string rowName(const EvaluationCase& what) {
+  return what.surface.empty() ? what.object : what.object + " (" + what.surface + ")";
+}
+
+void addRows(Evaluation& evaluation) {
+  std::vector<CaseOutcome> group;
+  for (std::size_t i = 0; i < evaluation.cases.size(); ++i) {
+    group.push_back(evaluation.cases[i]);
+    const std::string name = rowName(group.back().what);
+    if (i + 1 < evaluation.cases.size() && rowName(evaluation.cases[i + 1].what) == name) continue;
+    evaluation.rows.push_back(summarize(name, group));
+    group.clear();
+  }
+  evaluation.total = summarize("all", evaluation.cases);
+}
+
+}  // namespace
+
+Result<Evaluation> evaluate(const EvaluateSettings& settings, const Progress& progress,
+                            const std::function<void(const CaseOutcome&)>& tell) {
+  const auto cases = findCases(settings);
+  if (!cases) return tl::unexpected<Error>(cases.error());
+  Evaluation evaluation;
+  evaluation.settings = settings;
+  evaluation.cases = CaseQueue(settings, *cases, progress, tell).run();
+  std::erase_if(evaluation.cases, [](const CaseOutcome& outcome) { return !outcome.done; });
+  evaluation.interrupted = evaluation.cases.size() < cases->size();
+  addRows(evaluation);
+  return evaluation;
+}
+
+}  // namespace ifa

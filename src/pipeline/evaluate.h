@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// `ifa evaluate`: a set of cases, synchronised one by one, and the table of what came out
+// (docs/evaluation.md).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ifa/progress.h"
+#include "ifa/result.h"
+
+namespace ifa {
+
+enum class Parity { kEven, kOdd };
+
+struct EvaluateSettings {
+  std::filesystem::path folder;  ///< one folder per object in it, named NAME or NAME@SURFACE
+  std::string planner = "shoot";
+  std::uint64_t seed = 1;
+  double timeLimitSeconds = 0;   ///< per case; 0: never
+  int jobs = 1;                  ///< cases at a time; each uses all cores by itself
+  std::size_t limit = 0;         ///< cases per object folder, the first ones; 0: all
+  std::optional<Parity> parity;  ///< only cases whose name ends in such a number
+};
+
+/// One case: a sound with its labels, or a signature alone.
+struct EvaluationCase {
+  std::string object, surface;  ///< surface empty: the object's default
+  std::string name;
+  std::filesystem::path sound;   ///< NAME.wav (or another sound file), or NAME.signature.json
+  std::filesystem::path labels;  ///< NAME.txt; empty for a signature
+};
+
+/// What came out of a case.
+struct CaseOutcome {
+  EvaluationCase what;
+  bool solved = false;  ///< docs/method.md 5
+  bool done = false;    ///< false: not begun, or cut off by an interruption
+  std::string failure;  ///< why it is not solved
+  int contacts = 0;     ///< n, events of the filtered signature
+  double score = 0, scoreWithoutSound = 0, meanFv = 0;
+  double searchSeconds = 0;   ///< of the planner
+  double wallSeconds = 0;     ///< from reading the sound to the audited motion
+  double startError = 0;      ///< largest |contact start - target|, s
+  std::vector<double> bends;  ///< of every contact
+};
+
+/// Rows of the table. Score, f_v, bend and search are over the solved cases, as in the paper; the
+/// wall times over all.
+struct EvaluationRow {
+  std::string name;  ///< "d6 (desk)", or "all"
+  int cases = 0, solved = 0;
+  double meanContacts = 0;
+  double meanSearchSeconds = 0;
+  double meanScore = 0;
+  double meanFv = 0;  ///< geometric, over all contacts
+  double bendMedian = 0, bendShareUpToOne = 0, bendMax = 0;
+  double wallMedian = 0, wallP95 = 0;  ///< s
+};
+
+struct Evaluation {
+  EvaluateSettings settings;
+  std::vector<CaseOutcome> cases;   ///< those that were done, in order of object and name
+  std::vector<EvaluationRow> rows;  ///< per object folder
+  EvaluationRow total;
+  bool interrupted = false;
+};
+
+/// The cases of the set, in natural order (d6 before d10). Errors: kBadInput when the folder is not
+/// there, holds no case, or none that the settings choose.
+[[nodiscard]] Result<std::vector<EvaluationCase>> findCases(const EvaluateSettings& settings);
+
+/// Runs all cases. A case that fails, for whatever reason, is a row of the table and no error.
+/// Stops early when asked to, with what is done.
+/// @param tell  called after each case, by one thread at a time; may be empty
+[[nodiscard]] Result<Evaluation> evaluate(const EvaluateSettings& settings,
+                                          const Progress& progress,
+                                          const std::function<void(const CaseOutcome&)>& tell = {});
+
+/// The row that sums up `cases`.
+[[nodiscard]] EvaluationRow summarize(std::string name, const std::vector<CaseOutcome>& cases);
+
+/// The table of rows alone, then (if asked) that of the cases, in Markdown.
+[[nodiscard]] std::string evaluationMarkdown(const Evaluation& evaluation, bool withCases);
+
+/// The whole report in JSON.
+[[nodiscard]] std::string evaluationJson(const Evaluation& evaluation);
+
+}  // namespace ifa
