@@ -17,8 +17,17 @@ BodyModel::BodyModel(const Body& body, const SurfaceProperties& surfaceIn,
     radius = std::max(radius, p.norm());
   }
   Eigen::Vector3d moments = body.principalMoments;
-  isotropic = moments.maxCoeff() - moments.minCoeff() < 1e-6 * moments.maxCoeff();
-  if (isotropic) moments.setConstant(moments.mean());
+  const double alike = 1e-6 * moments.maxCoeff();
+  isotropic = moments[2] - moments[0] < alike;
+  if (isotropic) {
+    moments.setConstant(moments.mean());
+  } else if (moments[1] - moments[0] < alike) {
+    symmetryAxis = 2;
+    moments.head<2>().setConstant(moments.head<2>().mean());
+  } else if (moments[2] - moments[1] < alike) {
+    symmetryAxis = 0;
+    moments.tail<2>().setConstant(moments.tail<2>().mean());
+  }
   inertia = {moments.x(), moments.y(), moments.z()};
   inverseInertia = {1 / inertia.x, 1 / inertia.y, 1 / inertia.z};
   euler = {(inertia.y - inertia.z) / inertia.x, (inertia.z - inertia.x) / inertia.y,

@@ -31,8 +31,9 @@ struct BodyModel {
   Vec<double> inertia, inverseInertia;  ///< principal moments
   Vec<double> euler;                    ///< (I2 - I3) / I1 and cyclic
   bool isotropic;                       ///< all moments equal: spin is constant in flight
-  double radius;                        ///< m
-  double slop;                          ///< gap that counts as touching, m
+  int symmetryAxis = -1;  ///< 0 or 2: the other two moments are equal; -1: they are not
+  double radius;          ///< m
+  double slop;            ///< gap that counts as touching, m
   SurfaceProperties surface;
   KernelSettings settings;
 };

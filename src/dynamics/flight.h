@@ -60,6 +60,9 @@ inline double HeightCubic<double>::firstTouch() const {
   return s;
 }
 
+/// Whether the rotation in flight has a closed form, good for any time.
+inline bool closedForm(const BodyModel& body) { return body.isotropic || body.symmetryAxis >= 0; }
+
 /// One segment of a flight: positions and rates of the two ends of it.
 class FlightSegment {
  public:

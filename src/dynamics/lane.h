@@ -28,7 +28,7 @@ inline double laneAbs(double a) { return std::fabs(a); }
 /// A vector of three lanes.
 template <class R>
 struct Vec {
-  R x{}, y{}, z{};
+  R x, y, z;
 };
 
 template <class R>
@@ -59,7 +59,7 @@ Vec<R> select(const LaneMask<R>& mask, const Vec<R>& yes, const Vec<R>& no) {
 /// A quaternion w + x i + y j + z k.
 template <class R>
 struct Quat {
-  R w{}, x{}, y{}, z{};
+  R w, x, y, z;
 };
 
 /// Product with the pure quaternion of `v`: q (0, v).

@@ -11,19 +11,33 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The world's vertical seen from the body after a torque-free turn.
+/// Orientation and spin after a torque-free turn.
 struct TurnedUp {
-  Vec<double> up, w;
+  Rotation<double> rotation;
+  Vec<double> w;
+
+  [[nodiscard]] const Vec<double>& up() const { return rotation.rows[2]; }
 };
 
 TurnedUp turn(const BodyModel& model, const Quat<double>& q, const Vec<double>& w,
               double duration) {
   Spin<double> spin{q, w};
-  const double angle = model.isotropic ? 1.0 : model.settings.segmentAngle;
-  const double longest = angle / std::max(std::sqrt(dot(w, w)), 1.0);
-  const int pieces = static_cast<int>(duration / longest) + 1;
+  const double rate = std::sqrt(dot(w, w));
+  const int pieces =
+      closedForm(model) ? 1 : static_cast<int>(duration * rate / model.settings.segmentAngle) + 1;
   for (int i = 0; i < pieces; ++i) spin = FreeRotation<double>(model, spin).at(duration / pieces);
-  return {Rotation<double>(spin.q).rows[2], spin.w};
+  return {Rotation<double>(spin.q), spin.w};
+}
+
+/// Transpose of the left Jacobian of the rotation by `v`, applied to `a`: how a change of the
+/// constant spin turns the body by the flight's end. Exact for equal moments, near enough to aim
+/// with for others.
+Vec<double> aimed(const Vec<double>& v, const Vec<double>& a) {
+  const double angle2 = dot(v, v), angle = std::sqrt(angle2);
+  if (angle < 1e-3) return a - cross(v, a) * 0.5;
+  const SinCos<double> turned = laneSinCos(angle);
+  const double c = (1 - turned.cosine) / angle2, s = turned.sine / angle;
+  return a * s - cross(v, a) * c + v * (dot(v, a) * (1 - s) / angle2);
 }
 
 double heightOf(const BodyModel& model, std::size_t i, const Vec<double>& up) {
@@ -56,28 +70,24 @@ std::optional<TimedFlight> timeFlight(const BodyModel& model, const RigidState& 
     region.change(wish, flight.velocityChange, flight.angularVelocityChange);
     const Vector3d spin = after.angularVelocity + flight.angularVelocityChange;
     const TurnedUp now = turned(spin);
-    const std::size_t lowest = lowestVertex(model, now.up);
-    const double height = heightOf(model, lowest, now.up);
+    const std::size_t lowest = lowestVertex(model, now.up());
+    const double height = heightOf(model, lowest, now.up());
     const double miss = drop + (after.velocity.z() + flight.velocityChange.z()) * duration + height;
     if (std::abs(miss) < 1e-9) break;
     Coordinates slope;
     slope.head<3>() = duration * region.linearAxes().row(2).transpose();
-    // A thousandth of a radian by the flight's end: far from rounding, and still linear.
-    const double nudge = 1e-3 / duration;
-    Vector3d gradient;
-    for (int axis = 0; axis < 3; ++axis) {
-      const TurnedUp other = turned(spin + nudge * Vector3d::Unit(axis));
-      gradient[axis] = (heightOf(model, lowest, other.up) - height) / nudge;
-    }
-    slope.tail<3>() = region.angularAxes().transpose() * gradient;
+    const Vec<double> r =
+        now.rotation * Vec<double>{model.x[lowest], model.y[lowest], model.z[lowest]};
+    const Vec<double> lever = aimed(vec(spin) * duration, {r.y * duration, -r.x * duration, 0});
+    slope.tail<3>() = region.angularAxes().transpose() * Vector3d(lever.x, lever.y, lever.z);
     wish -= slope * (miss / slope.squaredNorm());
   }
   region.change(wish, flight.velocityChange, flight.angularVelocityChange);
   const TurnedUp now = turned(after.angularVelocity + flight.angularVelocityChange);
-  const std::size_t lowest = lowestVertex(model, now.up);
-  const double rise = -(drop + heightOf(model, lowest, now.up)) / duration;
+  const std::size_t lowest = lowestVertex(model, now.up());
+  const double rise = -(drop + heightOf(model, lowest, now.up())) / duration;
   flight.velocityChange.z() = rise - after.velocity.z();
-  const Vec<double> upRate = cross(now.up, now.w);
+  const Vec<double> upRate = cross(now.up(), now.w);
   if (rise - kGravity * duration + heightOf(model, lowest, upRate) >= 0) return std::nullopt;
   flight.bend = region.bend(flight.velocityChange, flight.angularVelocityChange);
   flight.departure = after;

@@ -23,7 +23,7 @@ struct ShootingSettings {
   double dropPenalty = 6;         ///< log units for an event of weight 1 that was dropped
   int passes = 6;                 ///< searches with other seeds and wider beams, at most
   double goodScore = 0.9;         ///< enough to stop after the first pass
-  int outlookDrops = 3000;        ///< drops from which the energy outlook is learnt
+  int outlookDrops = 1000;        ///< drops from which the energy outlook is learnt
 };
 
 }  // namespace ifa
