@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "motion/build_motion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "dynamics/stepper.h"
+#include "motion/trajectory_writer.h"
+
+namespace ifa {
+
+namespace {
+
+constexpr double kLongestSettling = 10;  // s after the last contact
+constexpr double kLongestBouncing = 2;   // s after a last contact that is not terminal
+constexpr double kHold = 0.5;            // s at rest
+constexpr double kInstant = 1e-9;        // s
+
+bool sameState(const RigidState& a, const RigidState& b) {
+  return a.position == b.position && a.orientation.coeffs() == b.orientation.coeffs() &&
+         a.velocity == b.velocity && a.angularVelocity == b.angularVelocity;
+}
+
+/// State that leaves a contact: as simulated, plus the planned change.
+RigidState departureOf(const PlannedContact& contact) {
+  RigidState state = contact.event.after;
+  state.velocity += contact.velocityChange;
+  state.angularVelocity += contact.angularVelocityChange;
+  return state;
+}
+
+class Builder {
+ public:
+  Builder(const PlanRequest& request, const Plan& plan, Motion& motion)
+      : request_(request),
+        plan_(plan),
+        motion_(motion),
+        model_(*request.body, request.surface),
+        stepper_(model_),
+        writer_(*request.body, model_, motion) {}
+
+  Result<void> trajectory(double preRoll) {
+    before(preRoll);
+    for (std::size_t k = 0; k < plan_.contacts.size(); ++k) {
+      if (auto good = event(k); !good) return good;
+      if (k + 1 < plan_.contacts.size()) {
+        if (auto good = passage(k); !good) return good;
+      }
+    }
+    ending();
+    return {};
+  }
+
+  void contacts() {
+    for (std::size_t k = 0; k < plan_.contacts.size(); ++k) motion_.contacts.push_back(contact(k));
+  }
+
+ private:
+  /// Backward flight: forward with negated velocities (5.1), to an earlier contact or the
+  /// pre-roll's start.
+  void before(double preRoll) {
+    KernelState<double> back = kernelState(plan_.contacts[0].event.before, 0);
+    back.velocity = back.velocity * -1.0;
+    back.w = back.w * -1.0;
+    const KernelState<double> start = back;
+    double duration = 0;
+    while (duration < preRoll) {
+      const FlightSegment segment(model_, back, preRoll - duration);
+      const double hit = segment.firstTouch();
+      back = segment.at(std::min(hit, segment.length()));
+      duration = back.time;
+      if (hit <= segment.length()) break;
+    }
+    if (duration < kInstant) return;
+    KernelState<double> first = back;
+    first.velocity = first.velocity * -1.0;
+    first.w = first.w * -1.0;
+    writer_.sample(first, -duration);
+    writer_.flight(first, -duration, duration);
+  }
+
+  [[nodiscard]] double startOf(std::size_t k) const { return plan_.contacts[k].time; }
+  [[nodiscard]] double endOf(std::size_t k) const {
+    return plan_.contacts[k].time + plan_.contacts[k].event.end;
+  }
+
+  static Result<void> differs(std::size_t k, const char* what) {
+    return tl::unexpected<Error>({ErrorCode::kInternal,
+                                  fmt::format("the replay of contact {} {}", k + 1, what),
+                                  {},
+                                  "please report this with the input"});
+  }
+
+  Result<void> event(std::size_t k) {
+    const PlannedContact& contact = plan_.contacts[k];
+    const KernelState<double> start = kernelState(contact.event.before, 0);
+    writer_.sample(start, startOf(k));
+    stepper_.start(start, contact.restitution);
+    const bool met = writer_.run(stepper_, startOf(k), contact.event.end + 1, false,
+                                 [&](const Stepper& s, Advance did) {
+                                   return (did == Advance::kImpact || did == Advance::kContact) &&
+                                          s.state().time > contact.event.end - kInstant &&
+                                          sameState(rigidState(s.state()), contact.event.after);
+                                 });
+    return met ? Result<void>{} : differs(k, "does not end as planned");
+  }
+
+  /// What joins contact k to the next: flight, or silence as simulated.
+  Result<void> passage(std::size_t k) {
+    const RigidState departure = departureOf(plan_.contacts[k]);
+    const KernelState<double> start = kernelState(departure, 0);
+    const PlannedContact& next = plan_.contacts[k + 1];
+    const double duration = startOf(k + 1) - endOf(k);
+    writer_.sample(start, endOf(k));
+    if (next.arrival == Arrival::kFlight) {
+      writer_.flight(start, endOf(k), duration);
+      return {};
+    }
+    stepper_.start(start);
+    const bool met =
+        writer_.run(stepper_, endOf(k), duration + 1e-3, true, [&](const Stepper& s, Advance) {
+          return sameState(rigidState(s.state()), next.event.before);
+        });
+    return met ? Result<void>{} : differs(k + 1, "is not reached as planned");
+  }
+
+  /// Settles after the last contact, or bounces on when it was not terminal.
+  void ending() {
+    const std::size_t last = plan_.contacts.size() - 1;
+    const double begin = startOf(last);
+    const double limit =
+        stepper_.state().time + (request_.signature.terminal ? kLongestSettling : kLongestBouncing);
+    writer_.run(stepper_, begin, limit, true, [](const Stepper&, Advance) { return false; });
+    if (stepper_.state().time >= limit) return;
+    const double rest = begin + stepper_.state().time;
+    for (int i = 0; i <= static_cast<int>(kHold * 240); ++i) {
+      writer_.sampleAtRest(stepper_.state(), rest + i / 240.0);
+    }
+  }
+
+  [[nodiscard]] MotionContact contact(std::size_t k) const {
+    const PlannedContact& planned = plan_.contacts[k];
+    const SignatureEvent& target =
+        request_.signature.events[static_cast<std::size_t>(planned.target)];
+    const double mergeGap = request_.body->definition.mergeGap;
+    MotionContact c;
+    c.targetTime = target.time;
+    c.targetDuration = target.duration;
+    c.targetAmplitude = target.amplitude;
+    c.targetCentroid = target.centroid;
+    c.time = planned.time;
+    c.duration = planned.event.filteredDuration(mergeGap);
+    c.end = endOf(k);
+    c.amplitude = planned.relativeAmplitude;
+    c.centroid = c.duration > 0 ? planned.event.centroid : 0;
+    c.terminal = planned.event.terminal;
+    c.arrival = planned.arrival;
+    c.source.kind = k == 0 ? SourceKind::kSampled : SourceKind::kShot;
+    c.factors = planned.factors;
+    c.bend = planned.bend;
+    c.restitution = planned.restitution;
+    c.position = planned.event.before.position;
+    if (k > 0) change(plan_.contacts[k - 1], c);
+    return c;
+  }
+
+  /// The impulse and angular impulse that were added where the edge to this contact begins.
+  void change(const PlannedContact& from, MotionContact& c) const {
+    const Eigen::Matrix3d axes = from.event.after.orientation.toRotationMatrix();
+    const Eigen::Matrix3d inertia =
+        axes * request_.body->principalMoments.asDiagonal() * axes.transpose();
+    c.impulseChange = request_.body->mass * from.velocityChange;
+    c.angularChange = inertia * from.angularVelocityChange;
+  }
+
+  const PlanRequest& request_;
+  const Plan& plan_;
+  Motion& motion_;
+  BodyModel model_;
+  Stepper stepper_;
+  TrajectoryWriter writer_;
+};
+
+}  // namespace
+
+Result<Motion> buildMotion(const PlanRequest& request, const Plan& plan, double preRoll) {
+  Motion motion;
+  motion.object.name = request.body->definition.name;
+  motion.object.mass = request.body->mass;
+  motion.object.restitution = request.surface.restitution;
+  motion.object.friction = request.surface.friction;
+  motion.success = plan.solved;
+  motion.failure = plan.failure;
+  motion.timeLimitReached = plan.timeLimitReached;
+  motion.energyGain = request.settings.energyGain;
+  motion.score = plan.score;
+  motion.scoreWithoutSound = plan.scoreWithoutSound;
+  motion.meanFv = plan.meanFv;
+  motion.bend = {plan.bendMedian, plan.bendMax, request.settings.bendCap};
+  if (plan.contacts.empty()) return motion;
+  Builder builder(request, plan, motion);
+  builder.contacts();
+  if (auto good = builder.trajectory(preRoll); !good) return tl::unexpected(good.error());
+  return motion;
+}
+
+}  // namespace ifa

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Turns kernel states into a motion's samples: flights at 240 Hz, contact at every step and impact.
+#pragma once
+
+#include <functional>
+
+#include "dynamics/stepper.h"
+#include "ifa/motion.h"
+
+namespace ifa {
+
+/// Not thread safe. Times are those of the motion: s after the first contact.
+class TrajectoryWriter {
+ public:
+  TrajectoryWriter(const Body& body, const BodyModel& model, Motion& motion);
+
+  /// A state exactly as it is.
+  void sample(const KernelState<double>& state, double time);
+  /// The same with no velocity: a body at rest.
+  void sampleAtRest(const KernelState<double>& state, double time);
+  /// Samples strictly inside a flight of `duration` seconds from `departure`, on the grid of 240
+  /// Hz.
+  void flight(const KernelState<double>& departure, double time, double duration);
+  /// Runs `stepper` (time 0 = `time`) until `done` says so after some advance, or it rests, or
+  /// `limit` s; writes flights in between at 1 ms and contact at every step. Contact is listed as
+  /// silent where `silent`. Returns whether `done` was met.
+  bool run(Stepper& stepper, double time, double limit, bool silent,
+           const std::function<bool(const Stepper&, Advance)>& done);
+
+ private:
+  void inside(const KernelState<double>& departure, double time, double duration, double step);
+  void listSilent(double begin, double end);
+
+  BodyModel const& model_;
+  Motion& motion_;
+  Eigen::Quaterniond principalFromBody_;
+};
+
+}  // namespace ifa
