@@ -12,6 +12,8 @@ import math
 import os
 import sys
 
+sys.dont_write_bytecode = True  # the folder is installed as it stands
+
 from geometry import (Mesh, add, circle, cross, dot, face_frame, mean, scale, sub, unit)
 from glyphs import text
 
@@ -400,7 +402,16 @@ OBJECTS = {
 
 
 def rounded(vector):
-    return [round(c, 9) + 0.0 for c in vector]
+    return [round(c, 9) for c in vector]
+
+
+def plain(value):
+    """30 and not 30.0, as `ifa` writes numbers."""
+    if isinstance(value, dict):
+        return {key: plain(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [plain(item) for item in value]
+    return int(value) if isinstance(value, float) and value.is_integer() else value
 
 
 def write_mesh(folder, name, mesh):
@@ -438,7 +449,7 @@ def write_object(folder, name, directions):
         from_mesh = ("format", "version", "name", "mesh", "units", "kind", "mass", "faces")
         made = {key: made[key] if key in from_mesh and key in made else old.get(key, made.get(key))
                 for key in list(made) + [k for k in old if k not in made]}
-    write(path, entries(made, "  ") + "\n")
+    write(path, entries(plain(made), "  ") + "\n")
 
 
 def entries(value, indent):

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Object files: definition to text, laid out so that a person can read it and a diff stays small.
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "body/object_file.h"
@@ -10,8 +11,15 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
+// 30 and not 30.0, as people write it.
+std::string numberText(double value) {
+  const bool whole = std::abs(value) < 1e15 && value == std::trunc(value);
+  return whole ? std::to_string(static_cast<long long>(value)) : Json(value).dump();
+}
+
 /// One line: {"a": 1, "b": [0, 0, 1]}.
 std::string oneLine(const Json& json) {
+  if (json.is_number_float()) return numberText(json.get<double>());
   if (!json.is_structured()) {
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
   }
@@ -84,7 +92,9 @@ std::string objectFileText(const ObjectDefinition& definition) {
       {"cone_degrees", sampling.coneDegrees}, {"speed", sampling.speed}, {"spin", sampling.spin}};
   json["merge_gap"] = definition.mergeGap;
   for (const auto& [name, face] : definition.faces) {
-    json["faces"][name] = {face.x(), face.y(), face.z()};
+    // Nine digits: the reader makes it a unit vector again.
+    const Eigen::Vector3d rounded = (face * 1e9).array().round() / 1e9;
+    json["faces"][name] = {rounded.x(), rounded.y(), rounded.z()};
   }
   if (!definition.notes.empty()) json["notes"] = definition.notes;
   return oneEntryPerLine(json, "  ") + "\n";

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "base/file.h"
 #include "body/mesh_report.h"
 #include "body/object_file.h"
 
@@ -86,6 +87,15 @@ TEST_P(LibraryObject, SurfacesAndColoursAreThere) {
   for (int material : body.mesh.triangleMaterial) {
     ASSERT_LT(static_cast<std::size_t>(material), body.mesh.materials.size());
   }
+}
+
+// So that a calibration changes the lines of its numbers and no others.
+TEST_P(LibraryObject, FileIsLaidOutAsTheProgramWritesIt) {
+  const auto text = readFile(body.definition.path, 1 << 20);
+  ASSERT_TRUE(text);
+  const auto definition = readObjectFile(body.definition.path);
+  ASSERT_TRUE(definition);
+  EXPECT_EQ(objectFileText(*definition), *text);
 }
 
 INSTANTIATE_TEST_SUITE_P(
