@@ -63,7 +63,6 @@ class Builder {
     KernelState<double> back = kernelState(plan_.contacts[0].event.before, 0);
     back.velocity = back.velocity * -1.0;
     back.w = back.w * -1.0;
-    const KernelState<double> start = back;
     double duration = 0;
     while (duration < preRoll) {
       const FlightSegment segment(model_, back, preRoll - duration);

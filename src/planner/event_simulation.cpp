@@ -46,11 +46,13 @@ void EventSimulation::outcomes(const RigidState& arrival, double restitution, bo
   if (terminal) {
     out.clear();
     if (rest && events.size() == 1) out.push_back(events[0]);
-    return;
+  } else {
+    // The last cut is the natural end itself.
+    if (!out.empty() && out.back().end == events[0].end) out.pop_back();
+    if (!(rest && events.size() == 1)) out.insert(out.begin(), events[0]);
   }
-  // The last cut is the natural end itself.
-  if (!out.empty() && out.back().end == events[0].end) out.pop_back();
-  if (!(rest && events.size() == 1)) out.insert(out.begin(), events[0]);
+  // To the bit what a replay starts from; on its way through the kernel the spin was turned and back.
+  for (ContactEvent& event : out) event.before = arrival;
 }
 
 std::optional<NextContact> EventSimulation::nextAudible(const RigidState& state, double horizon) {
