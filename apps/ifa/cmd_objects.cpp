@@ -201,8 +201,8 @@ void addObjectsCommand(CLI::App& app, CommandContext& context) {
   command->add_option("--units", options->units, "units of the mesh file: m, cm, mm or in")
       ->check(CLI::IsMember({"m", "cm", "mm", "in"}));
   command->add_option("--density", options->density, "kg/m^3, or kg/m^2 with --shell")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--mass", options->mass, "kg")->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1e-3, 3e4));
+  command->add_option("--mass", options->mass, "kg")->check(CLI::Range(1e-6, 1e3));
   command->add_flag("--shell", options->shell, "a thin shell instead of a solid");
   command->add_option("--restitution", options->restitution, "of the new object (0.6)")
       ->check(CLI::Range(0.0, 0.95));

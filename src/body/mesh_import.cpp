@@ -23,7 +23,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr std::uintmax_t kMaxMeshBytes = std::uintmax_t{1} << 30;
+constexpr std::uintmax_t kMaxMeshBytes = std::uintmax_t{1} << 29;
 constexpr double kWeldRelative = 1e-6;
 constexpr std::size_t kMaxMaterials = 256;
 
