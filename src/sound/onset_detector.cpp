@@ -54,8 +54,7 @@ Novelty noveltyOf(const BandEnergies& energies, const DetectorSettings& settings
   const double inaudible = loudest / bands * ratioOf(-settings.range - 10);
   novelty.rise.assign(energies.hops(), 0.0);
   for (const BandEnergy& band : energies.bands) {
-    const double floor =
-        std::max(inaudible, background(band, before) * ratioOf(settings.noiseMargin));
+    const double floor = std::max(inaudible, background(band, before));
     for (std::size_t k = 0; k < novelty.rise.size(); ++k) {
       const auto now = static_cast<std::ptrdiff_t>(k);
       const double ratio =
@@ -139,7 +138,7 @@ Result<std::vector<DetectedContact>> detectContacts(const Sound& sound,
   if (contacts.empty()) return nothing;
   dropLeadIn(contacts, settings.leadIn);
   DetectedContact& last = contacts.back();
-  const auto small = peaks(novelty, settings.rattleRise, minLevel, (interval + 1) / 2);
+  const auto small = peaks(novelty, settings.rattleRise, minLevel / 10, (interval + 1) / 2);
   last.end = std::min(rattleEnd(small, last.start, energies.hop, settings), sound.duration());
   return contacts;
 }

@@ -20,11 +20,10 @@ struct DetectedContact {
 /// All that can be tuned; docs/detection.md tells how the defaults were found.
 struct DetectorSettings {
   double minRise = 6.5;        ///< dB; a smaller rise is no attack. Higher: fewer, surer contacts
-  double range = 45;           ///< dB under the loudest contact where listening stops
+  double range = 40;           ///< dB under the loudest contact where listening stops
   double after = 0.002;        ///< s after a moment in which the attack's energy is taken
   double before = 0.008;       ///< s before it that it is compared with; longer hides more echoes
   double minInterval = 0.004;  ///< s; of two attacks that are closer the steeper one counts
-  double noiseMargin = 6;      ///< dB over the background below which nothing is heard
   double leadIn = 30;          ///< dB under the loudest contact; the first one is not softer
   double rattleRise = 2.5;     ///< dB; rises that, after the last contact, keep a rattle going
   double rattleGap = 0.020;    ///< s; a longer pause between them ends it

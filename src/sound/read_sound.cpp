@@ -18,6 +18,13 @@ using File = std::unique_ptr<SNDFILE, int (*)(SNDFILE*)>;
 
 constexpr const char* kConvert = "convert it to WAV, FLAC, Ogg or MP3 and try again";
 
+/// libsndfile's words for its last error, without the full stop.
+std::string reasonOf(SNDFILE* file) {
+  std::string reason = sf_strerror(file);
+  while (reason.ends_with('.') || reason.ends_with(' ')) reason.pop_back();
+  return reason;
+}
+
 /// What can be said about a path before decoding anything.
 Result<void> checkPath(const std::filesystem::path& path) {
   std::error_code code;
@@ -102,7 +109,7 @@ Result<void> decode(SNDFILE* file, const Sound& sound, const SoundLimits& limits
     if (read < static_cast<sf_count_t>(kBlockFrames)) break;
   }
   if (sf_error(file) != SF_ERR_NO_ERROR) {
-    return badInput(fmt::format("is damaged: {}", sf_strerror(file)), place, kConvert);
+    return badInput("is damaged: " + reasonOf(file), place, kConvert);
   }
   if (values.empty()) {
     return badInput("holds no samples", place, "record or export the sound again");
@@ -146,8 +153,7 @@ Result<Sound> readSound(const std::filesystem::path& path, const SoundLimits& li
   SF_INFO info{};
   const File file(sf_open(path.c_str(), SFM_READ, &info), &sf_close);
   if (!file) {
-    return badInput(fmt::format("is not a sound that can be read: {}", sf_strerror(nullptr)), place,
-                    kConvert);
+    return badInput("is not a sound that can be read: " + reasonOf(nullptr), place, kConvert);
   }
   if (auto good = checkHeader(info, limits, place); !good) {
     return tl::unexpected<Error>(good.error());
