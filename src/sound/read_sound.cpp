@@ -22,6 +22,8 @@ constexpr const char* kConvert = "convert it to WAV, FLAC, Ogg or MP3 and try ag
 std::string reasonOf(SNDFILE* file) {
   std::string reason = sf_strerror(file);
   while (reason.ends_with('.') || reason.ends_with(' ')) reason.pop_back();
+  // What it says of bytes that look like MP3 and are none; that the file is there was checked.
+  if (reason.find("not a regular file") != std::string::npos) return "Format not recognised";
   return reason;
 }
 
