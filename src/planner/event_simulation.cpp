@@ -51,7 +51,8 @@ void EventSimulation::outcomes(const RigidState& arrival, double restitution, bo
     if (!out.empty() && out.back().end == events[0].end) out.pop_back();
     if (!(rest && events.size() == 1)) out.insert(out.begin(), events[0]);
   }
-  // To the bit what a replay starts from; on its way through the kernel the spin was turned and back.
+  // To the bit what a replay starts from; on its way through the kernel the spin was turned and
+  // back.
   for (ContactEvent& event : out) event.before = arrival;
 }
 

@@ -19,6 +19,8 @@ struct ShootingSettings {
   double outlookWeight = 0.5;  ///< of the energy outlook beyond one standard deviation
   double hopeless = 8;  ///< log units that a motion without a way to the next contact loses in rank
   int silentTries = 2;  ///< directions tried where the next contact comes after silent contact
+  double silentReach =
+      2.5;  ///< and only where the unchanged motion misses by less (30 % of the gap is 1)
   double restitutionRange = 0.2;  ///< relative, inside continuous and last events
   double dropPenalty = 6;         ///< log units for an event of weight 1 that was dropped
   int passes = 6;                 ///< searches with other seeds and wider beams, at most

@@ -16,6 +16,8 @@ namespace {
 constexpr double kSilentPrecision = 1e-6;
 /// A touch that comes within this of the time asked for is that touch, s.
 constexpr double kTouchPrecision = 1e-7;
+/// Stands for a time that never comes, s.
+constexpr double kNever = 1e8;
 /// Ways to end one event that are followed up.
 constexpr std::size_t kMostEndings = 3;
 
@@ -23,6 +25,29 @@ constexpr std::size_t kMostEndings = 3;
 double bellShaped(RandomStream& random) {
   const double sum = random.uniform() + random.uniform() + random.uniform() + random.uniform();
   return (sum - 2) * 1.7320508075688772;
+}
+
+/// Illinois' false position with a bisection now and then: the function may jump where another
+/// vertex comes first. Ends with a call of `miss` within the precision, or false.
+template <class Miss>
+bool closeIn(const Miss& miss, double low, double high, double atLow, double atHigh) {
+  for (int step = 0; step < 30; ++step) {
+    const double share = step % 3 == 2 ? 0.5 : atLow / (atLow - atHigh);
+    const double middle = low + (high - low) * std::clamp(share, 0.01, 0.99);
+    const double off = miss(middle);
+    if (off > kNever) return false;
+    if (std::abs(off) < kSilentPrecision) return true;
+    if ((off < 0) == (atLow < 0)) {
+      low = middle;
+      atLow = off;
+      atHigh *= 0.5;
+    } else {
+      high = middle;
+      atHigh = off;
+      atLow *= 0.5;
+    }
+  }
+  return false;
 }
 
 }  // namespace
@@ -88,8 +113,9 @@ void ShootingWorker::expand(const ShootingNode& node, int index, int level, Rand
     const double restitution = variedRestitution(level, i, random);
     shoot(node, child, region, wish, duration, restitution, bound);
   }
-  if (!node.event.touchingAfter) return;
-  for (int i = 0; i < set.silentTries; ++i) {
+  if (node.silentOff > set.silentReach) return;
+  const int tries = set.silentTries * (level >= n - set.lastContacts ? 3 : 1);
+  for (int i = 0; i < tries; ++i) {
     Coordinates direction;
     for (int axis = 0; axis < 6; ++axis) direction[axis] = bellShaped(random);
     const double restitution = variedRestitution(level, i, random);
@@ -145,22 +171,15 @@ void ShootingWorker::shootSilently(const ShootingNode& node, ShootingNode child,
                      problem_.request.settings.energyGain)) {
       next = simulation_.nextAudible(start, 2 * duration + 0.02);
     }
-    return next ? next->delay - duration : 1e9;
+    return next ? next->delay - duration : 2 * kNever;
   };
-  constexpr std::array<double, 5> kPlaces = {-0.8, -0.4, 0.0, 0.4, 0.8};
+  constexpr std::array<double, 5> kPlaces = {-0.9, -0.4, 0.0, 0.4, 0.9};
   std::array<double, 5> found{};
   for (std::size_t i = 0; i < kPlaces.size(); ++i) found[i] = miss(kPlaces[i]);
   for (std::size_t i = 0; i + 1 < kPlaces.size(); ++i) {
-    double low = kPlaces[i], high = kPlaces[i + 1], atLow = found[i];
-    if (atLow > 1e8 || found[i + 1] > 1e8 || (atLow < 0) == (found[i + 1] < 0)) continue;
-    double middle = low, off = 1e9;
-    for (int step = 0; step < 40 && std::abs(off) > kSilentPrecision; ++step) {
-      middle = 0.5 * (low + high);
-      off = miss(middle);
-      if (off > 1e8) break;
-      ((off < 0) == (atLow < 0) ? low : high) = middle;
-    }
-    if (std::abs(off) > kSilentPrecision) continue;
+    if (found[i] > kNever || found[i + 1] > kNever || (found[i] < 0) == (found[i + 1] < 0))
+      continue;
+    if (!closeIn(miss, kPlaces[i], kPlaces[i + 1], found[i], found[i + 1])) continue;
     edge.bend = region.bend(edge.velocityChange, edge.angularChange);
     if (child.log.total() + logVelocity(edge.bend) <= bound) continue;
     if (!next->silentContact) edge.arrival = Arrival::kFlight;
@@ -230,30 +249,32 @@ void ShootingWorker::judge(ShootingNode& node) const {
   if (off > 0) node.rank -= problem_.settings.outlookWeight * off * off;
 }
 
-/// Log units that the unchanged motion would lose on its way to the next target.
-double ShootingWorker::lookAhead(const ShootingNode& node) const {
+/// Log units that the motion would lose on its way to the next target with the smallest change that
+/// flies there, or, where it does not just fly, by how far it misses that target unchanged.
+double ShootingWorker::lookAhead(ShootingNode& node) const {
   const double hopeless = problem_.settings.hopeless;
   const double time =
       problem_.request.signature.events[static_cast<std::size_t>(node.level + 1)].time;
   const double duration = time - node.start - node.event.end;
   if (duration < problem_.recorder.mergeGap) return 2 * hopeless;
+  const double flying = flightCost(node, duration);
+  if (flying < 1) return flying;
+  const auto next = simulation_.nextAudible(node.event.after, 2 * duration + 0.02);
+  if (!next || !next->silentContact) return std::min(flying, hopeless);
+  node.silentOff = std::abs(next->delay - duration) / std::max(0.01, 0.3 * duration);
+  return std::min({hopeless, flying, 0.2 + node.silentOff * node.silentOff});
+}
+
+double ShootingWorker::flightCost(const ShootingNode& node, double duration) const {
   const auto flight = timeFlight(problem_.model, node.event.after, regionOf(node.event),
                                  Coordinates::Zero(), duration);
-  double cost = hopeless;
-  if (flight) {
-    const bool allowed =
-        energyAllows(node.energyBefore, totalEnergy(problem_.model, flight->departure),
-                     problem_.request.settings.energyGain);
-    const auto touch = firstTouch(problem_.model, flight->departure, duration + 1e-3);
-    const bool clear = touch && std::abs(touch->time - duration) < kTouchPrecision;
-    cost = std::min(hopeless, -logVelocity(flight->bend) + (allowed ? 0 : 2) + (clear ? 0 : 2));
-  }
-  if (cost > 1 && node.event.touchingAfter) {
-    const auto next = simulation_.nextAudible(node.event.after, 2 * duration + 0.02);
-    const double off = next ? (next->delay - duration) / std::max(0.01, 0.3 * duration) : 9;
-    cost = std::min(cost, 0.2 + off * off);
-  }
-  return cost;
+  if (!flight) return problem_.settings.hopeless;
+  const bool allowed =
+      energyAllows(node.energyBefore, totalEnergy(problem_.model, flight->departure),
+                   problem_.request.settings.energyGain);
+  const auto touch = firstTouch(problem_.model, flight->departure, duration + 1e-3);
+  const bool clear = touch && std::abs(touch->time - duration) < kTouchPrecision;
+  return -logVelocity(flight->bend) + (allowed ? 0 : 2) + (clear ? 0 : 2);
 }
 
 }  // namespace ifa

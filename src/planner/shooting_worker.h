@@ -39,7 +39,8 @@ class ShootingWorker {
   void arrive(const ShootingNode& node, ShootingNode child, const Edge& edge,
               const RigidState& arrival, double restitution, double bound);
   void judge(ShootingNode& child) const;
-  [[nodiscard]] double lookAhead(const ShootingNode& node) const;
+  [[nodiscard]] double lookAhead(ShootingNode& node) const;
+  [[nodiscard]] double flightCost(const ShootingNode& node, double duration) const;
   [[nodiscard]] double droppedBetween(int from, int to) const;
   [[nodiscard]] double variedRestitution(int level, int attempt, RandomStream& random) const;
   [[nodiscard]] PlausibleRegion regionOf(const ContactEvent& event) const;
