@@ -45,12 +45,15 @@ inline void writeClicks(const std::filesystem::path& path, const std::vector<Cli
   sf_close(file);
 }
 
-/// Writes Audacity point labels at these times, the last one terminal.
-inline void writeClickLabels(const std::filesystem::path& path, const std::vector<Click>& clicks) {
+/// Writes Audacity point labels at these times, the last one terminal and `lastDuration` seconds
+/// long.
+inline void writeClickLabels(const std::filesystem::path& path, const std::vector<Click>& clicks,
+                             double lastDuration = 0) {
   std::ofstream stream(path);
   for (std::size_t i = 0; i < clicks.size(); ++i) {
     const bool last = i + 1 == clicks.size();
-    stream << fmt::format("{0:.6f}\t{0:.6f}\t{1}\n", clicks[i].time, last ? "terminal" : "hit");
+    const double end = clicks[i].time + (last ? lastDuration : 0);
+    stream << fmt::format("{:.6f}\t{:.6f}\t{}\n", clicks[i].time, end, last ? "terminal" : "hit");
   }
 }
 
