@@ -13,12 +13,6 @@
 
 namespace ifa::cli {
 
-// Not there yet in every build; a command that is not linked in is not offered.
-[[gnu::weak]] void addDetectCommand(CLI::App& app, CommandContext& context);
-[[gnu::weak]] void addObjectsCommand(CLI::App& app, CommandContext& context);
-[[gnu::weak]] void addVerifyCommand(CLI::App& app, CommandContext& context);
-[[gnu::weak]] void addEvaluateCommand(CLI::App& app, CommandContext& context);
-
 namespace {
 
 std::atomic<bool> stopRequested{false};
@@ -37,10 +31,10 @@ void listenToSignals() {
 
 void addCommands(CLI::App& app, CommandContext& context) {
   addSyncCommand(app, context);
-  if (addDetectCommand != nullptr) addDetectCommand(app, context);
-  if (addObjectsCommand != nullptr) addObjectsCommand(app, context);
-  if (addVerifyCommand != nullptr) addVerifyCommand(app, context);
-  if (addEvaluateCommand != nullptr) addEvaluateCommand(app, context);
+  addDetectCommand(app, context);
+  addObjectsCommand(app, context);
+  addVerifyCommand(app, context);
+  addEvaluateCommand(app, context);
 }
 
 struct GlobalOptions {
