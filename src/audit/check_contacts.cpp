@@ -9,34 +9,37 @@ namespace ifa::audit_detail {
 namespace {
 
 constexpr double kSamePlace = 1e-6;  // m, of a contact's position and its sample
-// An event begins with a bin that is heard. Where the bins of who found it lay is not known, so two
-// of them are searched, and a little under the threshold will do.
-constexpr double kFindWindow = 2 * kBin;
+// An event begins with a bin that is heard. Where the bins of who found it lay is not quite known,
+// so a little under the threshold will do.
 constexpr double kFindShare = 0.9;
 
 std::string label(std::size_t index) { return "contact " + std::to_string(index + 1); }
 
+/// Excess impulse of the first millisecond of contact `index`, or of one step in it, N s.
+double heardAtStart(const Evidence& all, std::size_t index) {
+  double heard = 0;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Step& step : all.steps) {
+    const bool mine = step.kind == StepKind::kEvent && step.contact == index;
+    if (!mine || all.sample(step.from).time >= all.contact(index).time + kBin - kSameTime) continue;
+    sum += step.impulse;
+    heard = std::max({heard, all.excess(step.impulse, step.duration), all.excess(sum, kBin)});
+  }
+  return heard;
+}
+
 /// What, if anything, is wrong with the claim that contact `index` happens.
 std::string whyNotFound(const Evidence& all, std::size_t index) {
   const MotionContact& contact = all.contact(index);
-  double heard = 0;
-  bool touches = false;
-  std::string wrong;
-  for (const Step& step : all.steps) {
-    const MotionSample& sample = all.sample(step.from);
-    const bool mine = step.kind == StepKind::kEvent && step.contact == index;
-    if (!mine || sample.time > contact.time + kFindWindow) continue;
-    if (std::abs(sample.time - contact.time) < kSameTime) {
-      touches = touches || std::abs(all.lowest[step.from]) <= all.depth;
-      if ((sample.position - contact.position).norm() > kSamePlace) {
-        wrong = "is not where the file says";
-      }
-    }
-    heard = std::max(heard, all.excess(step.impulse, step.duration));
+  bool touches = false, there = true;
+  for (std::size_t i = 0; i < all.lowest.size(); ++i) {
+    if (std::abs(all.sample(i).time - contact.time) > kSameTime) continue;
+    touches = touches || std::abs(all.lowest[i]) <= all.depth;
+    there = there && (all.sample(i).position - contact.position).norm() <= kSamePlace;
   }
   if (!touches) return "does not touch the ground";
-  if (!(heard > kFindShare * all.threshold)) return "cannot be heard";
-  return wrong;
+  if (!(heardAtStart(all, index) > kFindShare * all.threshold)) return "cannot be heard";
+  return there ? "" : "is not where the file says";
 }
 
 /// The file and the object speak of the same thing.

@@ -11,12 +11,17 @@ namespace {
 
 using Eigen::Vector2d;
 
+// Decision: round bodies have facets for want of triangles, and stop on the edge between two of
+// them as well as on one. A gap under the next vertex that nobody sees is taken for contact.
+constexpr double kUnseenGap = 5e-3;  // share of the body's size
+
 /// Where the lowest vertices stand, seen from above, relative to the centre of mass.
 std::vector<Vector2d> supportPoints(const Evidence& all, const MotionSample& rest) {
+  const double gap = std::max(all.depth, kUnseenGap * all.body.size);
   std::vector<Vector2d> points;
   for (const Eigen::Vector3d& vertex : all.body.hull) {
     const Eigen::Vector3d arm = rest.orientation * vertex;
-    if (rest.position.z() + arm.z() <= all.depth) points.emplace_back(arm.head<2>());
+    if (rest.position.z() + arm.z() <= gap) points.emplace_back(arm.head<2>());
   }
   return points;
 }

@@ -3,16 +3,20 @@
 #include <cmath>
 
 #include "audit/checks.h"
+#include "audit/flight.h"
 
 namespace ifa::audit_detail {
 namespace {
 
+// Share of h by which a step of 1 ms may leave what the velocities say: its turn is not quite even.
+constexpr double kRoundedStep = 0.2;
+
 /// Impulses below this neither push nor pull: rounding, N s.
 double noImpulse(const Evidence& all) { return all.settings.noiseTime * all.mass * kGravity; }
 
+/// Coming to rest is not among them: what little motion is left then is cut ("rest speed").
 bool isQuiet(const Step& step) {
-  return step.kind == StepKind::kSilent || step.kind == StepKind::kAfter ||
-         step.kind == StepKind::kRest;
+  return step.kind == StepKind::kSilent || step.kind == StepKind::kAfter;
 }
 
 /// An impulse without a vertex at the ground comes from nowhere.
@@ -53,21 +57,33 @@ Eigen::Vector3d turn(const MotionSample& from, const MotionSample& to) {
   return difference.angle() * difference.axis();
 }
 
-/// Poses move as velocities say: in a step of contact by something between the velocity before and
-/// the one after. What is beyond is displacement by hand.
+/// Distance by which a surface point of one pose misses that of the other, at most, m.
+double poseDifference(const Evidence& all, const MotionSample& a, const MotionSample& b) {
+  return (a.position - b.position).norm() +
+         all.body.radius * a.orientation.angularDistance(b.orientation);
+}
+
+/// How far a step's end lies from where something between the velocity before and the one after
+/// would have carried the body, or from where it would have flown, m.
+double displacement(const Evidence& all, const Step& step) {
+  const MotionSample &from = all.sample(step.from), &to = all.sample(step.from + 1);
+  const double moved = distanceFromWay(to.position - from.position, step.duration * from.velocity,
+                                       step.duration * to.velocity);
+  const double turned = distanceFromWay(turn(from, to), step.duration * from.angularVelocity,
+                                        step.duration * to.angularVelocity);
+  const MotionSample flown = flyFreely(from, step.duration, kGravity, all.body.inertia);
+  return std::min(moved + all.body.radius * turned, poseDifference(all, flown, to));
+}
+
+/// Poses move as velocities say. What is beyond is displacement by hand.
 AuditCheck motionInContact(const Evidence& all) {
   Worst worst;
   for (const Step& step : all.steps) {
     if (step.kind == StepKind::kFlight || step.kind == StepKind::kRest) continue;
     if (step.duration < kSameTime || step.duration > kBin + 1e-6) continue;
-    const MotionSample &from = all.sample(step.from), &to = all.sample(step.from + 1);
-    const double moved = distanceFromWay(to.position - from.position, step.duration * from.velocity,
-                                         step.duration * to.velocity);
-    const double turned = distanceFromWay(turn(from, to), step.duration * from.angularVelocity,
-                                          step.duration * to.angularVelocity);
-    worst.see(moved + all.body.radius * turned, from.time);
+    worst.see(displacement(all, step), all.sample(step.from).time);
   }
-  return worst.check("motion in contact", "m", all.depth);
+  return worst.check("motion in contact", "m", kRoundedStep * all.depth);
 }
 
 }  // namespace

@@ -35,8 +35,8 @@ StepKind kindOf(const Evidence& all, std::size_t contact, const MotionSample& a,
   if (contact < contacts.size() && within(a, b, contacts[contact].time, contacts[contact].end)) {
     return StepKind::kEvent;
   }
-  if (isSilent(all.motion, a, b)) return StepKind::kSilent;
   if (a.time >= all.restTime - kSameTime) return StepKind::kRest;
+  if (isSilent(all.motion, a, b)) return StepKind::kSilent;
   return contact == contacts.size() && !contacts.empty() ? StepKind::kAfter : StepKind::kFlight;
 }
 

@@ -99,10 +99,11 @@ EvaluationRow summarize(std::string name, const std::vector<CaseOutcome>& cases)
   EvaluationRow row;
   row.name = std::move(name);
   std::vector<double> bends, walls;
-  double contacts = 0, solvedContacts = 0, logFv = 0;
+  double contacts = 0, heard = 0, solvedContacts = 0, logFv = 0;
   for (const CaseOutcome& outcome : cases) {
     ++row.cases;
     contacts += outcome.contacts;
+    if (outcome.contacts > 0) ++heard;  // else it broke before its contacts were known
     walls.push_back(outcome.wallSeconds);
     if (!outcome.solved) continue;
     ++row.solved;
@@ -112,7 +113,7 @@ EvaluationRow summarize(std::string name, const std::vector<CaseOutcome>& cases)
     solvedContacts += outcome.contacts;
     bends.insert(bends.end(), outcome.bends.begin(), outcome.bends.end());
   }
-  if (row.cases > 0) row.meanContacts = contacts / row.cases;
+  if (heard > 0) row.meanContacts = contacts / heard;
   row.wallMedian = median(walls);
   row.wallP95 = quantile(walls, 0.95);
   if (row.solved == 0) return row;
