@@ -2,24 +2,16 @@
 #include "render/timeline.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "base/file.h"
 #include "render/svg_text.h"
+#include "render/timeline_parts.h"
 
 namespace ifa {
 namespace {
 
-// Layout, in the picture's own units.
-constexpr double kWidth = 1200, kHeight = 640;
-constexpr double kLeft = 96, kRight = 24, kPlot = kWidth - kLeft - kRight;
-constexpr double kWaveTop = 84, kWaveHeight = 150;
-constexpr double kForceTop = 250, kForceBottom = 390;
-constexpr double kTableTop = 454, kRowHeight = 18;
-constexpr double kLegend = 620;
-// Beyond this many contacts a table of factors has no room, on the page or in the file.
-constexpr std::size_t kMostColumns = 240;
+using namespace timeline_detail;
 
 constexpr std::string_view kStyle = R"(<style>
 svg{font-family:system-ui,-apple-system,"Segoe UI","DejaVu Sans",sans-serif;font-size:12px}
@@ -36,29 +28,6 @@ svg{font-family:system-ui,-apple-system,"Segoe UI","DejaVu Sans",sans-serif;font
 .silent{stroke:#64748b}}
 </style>
 )";
-
-/// From teal (good, 0) over amber (1) to red (2 and more), for light and dark pages alike.
-std::string colour(double badness) {
-  constexpr std::array<std::array<double, 3>, 3> kStops = {
-      {{15, 148, 136}, {245, 158, 11}, {220, 38, 38}}};
-  const double at = std::clamp(badness, 0.0, 1.999);
-  const auto stop = static_cast<std::size_t>(at);
-  const double share = at - static_cast<double>(stop);
-  const auto mix = [&](std::size_t i) {
-    return static_cast<int>(
-        std::lround((1 - share) * kStops[stop][i] + share * kStops[stop + 1][i]));
-  };
-  return fmt::format("#{:02x}{:02x}{:02x}", mix(0), mix(1), mix(2));
-}
-
-/// The part of the sound's time that is shown, s in the file.
-struct View {
-  double from = 0, to = 1;
-
-  [[nodiscard]] double x(double time) const {
-    return kLeft + kPlot * std::clamp((time - from) / (to - from), 0.0, 1.0);
-  }
-};
 
 View chooseView(const Motion& motion) {
   constexpr double kBefore = 0.25, kAfter = 0.35;  // s around the contacts
@@ -180,73 +149,6 @@ void addContacts(const Motion& motion, const View& view, SvgText& svg) {
     svg.add("<circle class=\"goal\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"5.5\"/></g>", x,
             kForceBottom - goal);
   }
-}
-
-struct Row {
-  const char* name;
-  double (*badness)(const MotionContact&);  ///< 0 good, 1 doubtful, 2 bad
-};
-
-double badFactor(double factor) { return 2 * (1 - std::clamp(factor, 0.0, 1.0)); }
-
-constexpr Row kRows[] = {
-    {"bend", [](const MotionContact& c) { return c.bend; }},
-    {"velocity", [](const MotionContact& c) { return badFactor(c.factors.v); }},
-    {"orientation", [](const MotionContact& c) { return badFactor(c.factors.q); }},
-    {"time warp", [](const MotionContact& c) { return badFactor(c.factors.t); }},
-    {"amplitude", [](const MotionContact& c) { return badFactor(c.factors.a); }},
-    {"duration", [](const MotionContact& c) { return badFactor(c.factors.l); }},
-    {"centroid", [](const MotionContact& c) { return badFactor(c.factors.c); }},
-};
-
-/// One column a contact, evenly spaced: contacts can be two milliseconds apart.
-void addTable(const Motion& motion, const View& view, SvgText& svg) {
-  const std::size_t count = motion.contacts.size();
-  if (count == 0 || count > kMostColumns) return;
-  const double pitch = std::min(64.0, kPlot / static_cast<double>(count));
-  const double left = kLeft + (kPlot - pitch * static_cast<double>(count)) / 2;
-  const double width = pitch > 6 ? pitch - 2 : pitch;
-  double y = kTableTop;
-  for (const Row& row : kRows) {
-    svg.label("text", kLeft - 10, y + 13, "end", row.name);
-    for (std::size_t i = 0; i < count; ++i) {
-      svg.add("<path fill=\"{}\" d=\"M{:.1f} {:.0f}h{:.1f}v16h-{:.1f}z\"/>",
-              colour(row.badness(motion.contacts[i])), left + pitch * static_cast<double>(i), y,
-              width, width);
-    }
-    y += kRowHeight;
-  }
-  const std::size_t every = pitch >= 18 ? 1 : pitch >= 9 ? 5 : 10;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double x = left + pitch * static_cast<double>(i) + width / 2;
-    const double from = view.x(motion.sound.firstContact + motion.contacts[i].time);
-    svg.add("<path class=\"link\" d=\"M{:.1f} {:.0f}L{:.1f} {:.0f}V{:.0f}\"/>", from,
-            kForceBottom + 20, x, kTableTop - 10, kTableTop - 2);
-    if ((i + 1) % every == 0 || i == 0) {
-      svg.label("faint", x, y + 11, "middle", std::to_string(i + 1));
-    }
-  }
-}
-
-void addLegend(SvgText& svg) {
-  svg.line("mark", kLeft, kLegend - 10, kLeft, kLegend + 2);
-  svg.label("faint", kLeft + 8, kLegend, "start", "contact in the sound");
-  svg.add("<circle class=\"goal\" cx=\"{:.0f}\" cy=\"{:.0f}\" r=\"5.5\"/>", kLeft + 150,
-          kLegend - 4);
-  svg.label("faint", kLeft + 162, kLegend, "start", "its loudness");
-  svg.add("<circle fill=\"{}\" cx=\"{:.0f}\" cy=\"{:.0f}\" r=\"3.5\"/>", colour(0), kLeft + 260,
-          kLegend - 4);
-  svg.label("faint", kLeft + 270, kLegend, "start", "impulse of the motion's contact");
-  svg.line("silent", kLeft + 460, kLegend - 4, kLeft + 490, kLegend - 4);
-  svg.label("faint", kLeft + 498, kLegend, "start", "touching without a sound");
-  constexpr int kSteps = 20;
-  const double left = kLeft + kPlot - 330;
-  svg.label("faint", left - 8, kLegend, "end", "factor 1, bend 0");
-  for (int i = 0; i < kSteps; ++i) {
-    svg.add("<path fill=\"{}\" d=\"M{:.1f} {:.0f}h10.5v10h-10.5z\"/>",
-            colour(2.0 * i / (kSteps - 1)), left + 10 * i, kLegend - 10);
-  }
-  svg.label("faint", left + 10 * kSteps + 8, kLegend, "start", "factor 0, bend 2");
 }
 
 }  // namespace
