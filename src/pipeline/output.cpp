@@ -87,4 +87,27 @@ std::vector<fs::path> outputNames() {
   return names;
 }
 
+// Whoever writes beside the sound must not find the sound replaced by its padded copy.
+Result<void> refuseToOverwrite(const fs::path& folder, std::vector<fs::path> inputs,
+                               const ObjectDefinition& object) {
+  auto names = outputNames();
+  names.emplace_back(object.name + ".json");
+  inputs.emplace_back(object.path);
+  std::vector<fs::path> meshes = {object.meshPath, object.hullPath};
+  for (const ObjectPart& part : object.parts) meshes.emplace_back(part.meshPath);
+  for (const fs::path& mesh : meshes) names.push_back(mesh.filename());
+  inputs.insert(inputs.end(), meshes.begin(), meshes.end());
+  for (const fs::path& input : inputs) {
+    std::error_code code;
+    const bool replaced =
+        !input.empty() && std::any_of(names.begin(), names.end(), [&](const fs::path& name) {
+          return fs::equivalent(folder / name, input, code);
+        });
+    if (!replaced) continue;
+    return tl::unexpected<Error>({ErrorCode::kUsage, "would be overwritten by the result",
+                                  input.string(), "choose another output folder"});
+  }
+  return {};
+}
+
 }  // namespace ifa

@@ -21,6 +21,11 @@ void placeInSound(Motion& motion, const Heard& heard);
                                       const std::vector<Motion>& takes, const Body& body,
                                       const Heard& heard, const std::set<OutputFormat>& formats);
 
+/// Errors: kUsage when writing to `folder` would replace one of `inputs` or a file of the object.
+[[nodiscard]] Result<void> refuseToOverwrite(const std::filesystem::path& folder,
+                                             std::vector<std::filesystem::path> inputs,
+                                             const ObjectDefinition& object);
+
 /// Names, relative to an output folder, that a run may leave there and a later run replaces.
 [[nodiscard]] std::vector<std::filesystem::path> outputNames();
 

@@ -175,6 +175,10 @@ Result<Synchronization> synchronizeToFolder(const SynchronizeSettings& settings,
                                             const Progress& progress) {
   auto job = prepare(settings);
   if (!job) return tl::unexpected(job.error());
+  const std::vector<fs::path> inputs = {settings.sound, settings.labels};
+  if (auto good = refuseToOverwrite(folder, inputs, job->body.definition); !good) {
+    return tl::unexpected(good.error());
+  }
   auto staged = StagedFolder::open(folder);
   if (!staged) return tl::unexpected(staged.error());
   auto result = run(settings, *job, progress);

@@ -117,6 +117,20 @@ TEST_F(BadPlace, OutputThatCannotBeWrittenIsToldBeforeTheSearch) {
   EXPECT_EQ(folder_.names(), before);
 }
 
+TEST_F(BadPlace, InputIsNotOverwritten) {
+  std::filesystem::rename(folder_ / "a.wav", folder_ / "sound.wav");
+  const auto sound = readText(folder_ / "sound.wav");
+  const auto before = folder_.names();
+  for (const std::string& object : {std::string("Eraser"), (folder_ / "thing.json").string()}) {
+    const auto result =
+        runProgram({"sync", folder_ / "sound.wav", "--object", object, "-o", folder_.path()});
+    EXPECT_EQ(result.exit, 2);
+    EXPECT_THAT(result.err, HasSubstr("overwritten"));
+  }
+  EXPECT_EQ(folder_.names(), before);
+  EXPECT_EQ(readText(folder_ / "sound.wav"), sound);
+}
+
 TEST_F(BadPlace, FolderWithoutASoundIsRefused) {
   std::filesystem::create_directory(folder_ / "in");
   const auto result = runProgram({"sync", folder_ / "in", "--object", "d6", "-o", folder_ / "out"});
