@@ -13,6 +13,11 @@ constexpr double kSamePose = 1e-9;        // m and rad, of samples that share th
 constexpr double kSlack = 1e-6;           // s, on the sampling intervals
 constexpr double kFlightStep = 1. / 240;  // s
 constexpr double kContactStep = 1e-3;     // s
+// Beyond these a file is broken, and predicting it would take for ever.
+constexpr double kLongestGap = 0.1;   // s
+constexpr double kFastest = 1e3;      // m/s
+constexpr double kFastestSpin = 5e3;  // rad/s
+constexpr double kAlmostUnit = 1e-2;  // of a quaternion's norm
 
 /// Counts flaws and keeps the first one's description.
 struct Flaws {
@@ -32,6 +37,11 @@ struct Flaws {
 bool isFinite(const MotionSample& s) {
   return std::isfinite(s.time) && s.position.allFinite() && s.orientation.coeffs().allFinite() &&
          s.velocity.allFinite() && s.angularVelocity.allFinite();
+}
+
+bool isAbsurd(const MotionSample& s) {
+  return s.velocity.norm() > kFastest || s.angularVelocity.norm() > kFastestSpin ||
+         std::abs(s.orientation.norm() - 1) > kAlmostUnit;
 }
 
 bool inContact(const Motion& motion, const MotionSample& a, const MotionSample& b) {
@@ -77,12 +87,13 @@ AuditCheck signs(const Motion& motion) {
 
 bool canBeJudged(const Motion& motion) {
   const auto& samples = motion.trajectory;
-  const auto backwards = [](const MotionSample& a, const MotionSample& b) {
-    return b.time < a.time;
+  const auto apart = [](const MotionSample& a, const MotionSample& b) {
+    return b.time < a.time || b.time - a.time > kLongestGap;
   };
   return samples.size() > 1 && !motion.contacts.empty() &&
          std::all_of(samples.begin(), samples.end(), isFinite) &&
-         std::adjacent_find(samples.begin(), samples.end(), backwards) == samples.end();
+         std::none_of(samples.begin(), samples.end(), isAbsurd) &&
+         std::adjacent_find(samples.begin(), samples.end(), apart) == samples.end();
 }
 
 void checkSamples(const Motion& motion, Checks& checks) {
@@ -92,6 +103,7 @@ void checkSamples(const Motion& motion, Checks& checks) {
   if (motion.contacts.empty()) flaws.add(0, "no contacts");
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (!isFinite(samples[i])) flaws.add(samples[i].time, "a number that is not finite");
+    if (isAbsurd(samples[i])) flaws.add(samples[i].time, "an absurd speed or orientation");
     if (std::abs(samples[i].orientation.norm() - 1) > kUnit) {
       flaws.add(samples[i].time, "an orientation that is no unit quaternion");
     }
