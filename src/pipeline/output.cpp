@@ -38,7 +38,8 @@ Result<void> writeTake(const fs::path& folder, const Motion& motion, const Body&
                        const Heard& heard, const std::set<OutputFormat>& formats) {
   if (auto written = copyObject(body.definition, folder); !written) return written;
   if (auto written = writeSound(folder, motion, heard); !written) return written;
-  if (formats.count(OutputFormat::kGlb) > 0) {
+  // A search that did not get to a first contact has nothing to show, only a reason.
+  if (formats.count(OutputFormat::kGlb) > 0 && !motion.trajectory.empty()) {
     if (auto written = writeGlb(folder / "motion.glb", motion, body); !written) return written;
   }
   return writeMotionJson(folder / "motion.json", motion);

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/output.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "body/object_file.h"
+#include "support/temporary_folder.h"
+
+namespace ifa {
+namespace {
+
+using testing::Contains;
+using testing::Not;
+
+Heard heardAt(double firstContact) {
+  Heard heard;
+  heard.sound = Sound{};
+  heard.sound->rate = 1000;
+  heard.sound->samples.assign(2000, 0.25F);
+  heard.signature.events.resize(1);
+  heard.signature.firstContact = firstContact;
+  return heard;
+}
+
+Motion motionFrom(double begin) {
+  Motion motion;
+  motion.trajectory.resize(2);
+  motion.trajectory[0].time = begin;
+  motion.trajectory[1].time = 0;
+  return motion;
+}
+
+TEST(PlaceInSound, AddsTheSilenceThatTheMotionNeeds) {
+  Motion motion = motionFrom(-0.5);
+  placeInSound(motion, heardAt(0.2));
+  EXPECT_EQ(motion.sound.file, "sound.wav");
+  EXPECT_NEAR(motion.sound.firstContact, 0.5, 1e-12);
+  EXPECT_NEAR(motion.sound.duration, 2.3, 1e-12);
+}
+
+TEST(PlaceInSound, RoundsSilenceUpToWholeSamples) {
+  Motion motion = motionFrom(-0.5004);
+  placeInSound(motion, heardAt(0.2));
+  EXPECT_NEAR(motion.sound.firstContact, 0.501, 1e-12);
+  EXPECT_NEAR(motion.sound.duration, 2.301, 1e-12);
+}
+
+TEST(PlaceInSound, LeavesASoundAloneThatBeginsEarlyEnough) {
+  Motion motion = motionFrom(-0.5);
+  placeInSound(motion, heardAt(0.7));
+  EXPECT_EQ(motion.sound.firstContact, 0.7);
+  EXPECT_EQ(motion.sound.duration, 2.0);
+}
+
+TEST(PlaceInSound, StartsAtTheMotionWhereThereIsNoSound) {
+  Heard heard = heardAt(0);
+  heard.sound.reset();
+  Motion motion = motionFrom(-0.4);
+  placeInSound(motion, heard);
+  EXPECT_TRUE(motion.sound.file.empty());
+  EXPECT_EQ(motion.sound.firstContact, 0.4);
+}
+
+TEST(WriteTakes, ASearchThatFoundNothingStillSaysWhy) {
+  const test::TemporaryFolder folder;
+  const Body body = loadObject("d6").value();
+  Motion motion;
+  motion.object = {"d6", "d6.obj", "desk", body.mass, 0.5, 0.3};
+  motion.failure = "contact 1 cannot be met";
+  const Heard heard = heardAt(0.2);
+  placeInSound(motion, heard);
+  const auto written = writeTakes(folder.path(), {motion}, body, heard, {OutputFormat::kGlb});
+  ASSERT_TRUE(written) << written.error().text();
+  EXPECT_THAT(folder.names(), Contains("motion.json"));
+  EXPECT_THAT(folder.names(), Not(Contains("motion.glb")));
+  EXPECT_THAT(test::readText(folder / "motion.json"), testing::HasSubstr(motion.failure));
+}
+
+TEST(RefuseToOverwrite, LooksAtFilesAndNotAtNames) {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "out");
+  test::writeText(folder / "out/sound.wav", "x");
+  test::writeText(folder / "out/other.wav", "x");
+  test::writeText(folder / "sound.wav", "x");
+  const auto refuse = [&](const std::string& input) {
+    return !refuseToOverwrite(folder / "out", {folder / input}, ObjectDefinition{}).has_value();
+  };
+  EXPECT_TRUE(refuse("out/sound.wav"));
+  EXPECT_TRUE(refuse("out/../out/./sound.wav"));
+  EXPECT_FALSE(refuse("out/other.wav"));
+  EXPECT_FALSE(refuse("sound.wav"));
+}
+
+}  // namespace
+}  // namespace ifa

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// The public interface: what a program that links the library sees.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <limits>
+
+#include "ifa/ifa.h"
+#include "support/clicks.h"
+#include "support/temporary_folder.h"
+
+namespace ifa {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* kRhythm = R"({"format": "inverse-foley-signature", "version": 1,
+  "terminal": true, "events": [
+    {"time": 0, "duration": 0, "amplitude": 1, "centroid": 0, "weight": 1},
+    {"time": 0.2, "duration": 0, "amplitude": 0.6, "centroid": 0, "weight": 1},
+    {"time": 0.3, "duration": 0.06, "amplitude": 0.5, "centroid": 0.02, "weight": 1}]})";
+
+class Synchronize : public testing::Test {
+ protected:
+  void SetUp() override {
+    settings_.sound = folder_ / "rhythm.json";
+    settings_.object = "Eraser";
+    test::writeText(settings_.sound, kRhythm);
+  }
+  test::TemporaryFolder folder_;
+  SynchronizeSettings settings_;
+};
+
+TEST_F(Synchronize, FindsAMotionForASignature) {
+  const auto result = synchronize(settings_);
+  ASSERT_TRUE(result) << result.error().text();
+  const Motion& motion = result->takes.front();
+  EXPECT_TRUE(motion.success) << motion.failure;
+  ASSERT_EQ(motion.contacts.size(), 3U);
+  EXPECT_NEAR(motion.contacts[1].time, 0.2, 1e-4);
+  EXPECT_NEAR(motion.contacts[2].time, 0.3, 1e-4);
+  EXPECT_TRUE(motion.contacts[2].terminal);
+  EXPECT_TRUE(motion.sound.file.empty());
+  EXPECT_NEAR(motion.sound.firstContact, -motion.trajectory.front().time, 1e-12);
+}
+
+TEST_F(Synchronize, RefusesSettingsThatMakeNoSense) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  std::vector<SynchronizeSettings> all(6, settings_);
+  all[0].takes = 0;
+  all[1].takes = kMaxTakes + 1;
+  all[2].timeLimitSeconds = nan;
+  all[3].energyGain = -0.1;
+  all[4].preRollSeconds = std::numeric_limits<double>::infinity();
+  all[5].planner = "graph";
+  for (const auto& settings : all) {
+    const auto result = synchronize(settings);
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().code, ErrorCode::kUsage) << result.error().text();
+  }
+}
+
+TEST_F(Synchronize, EndsWhenItIsAskedTo) {
+  const std::atomic<bool> stop{true};
+  Progress progress;
+  progress.stop = &stop;
+  const auto result = synchronizeToFolder(settings_, folder_ / "out", {}, progress);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, ErrorCode::kInterrupted);
+  EXPECT_THAT(folder_.names(), testing::ElementsAre("rhythm.json"));
+}
+
+TEST_F(Synchronize, LooksForObjectsWhereItIsTold) {
+  std::filesystem::create_directory(folder_ / "library");
+  test::writeText(folder_ / "library/Eraser.json", "{");
+  settings_.objects = folder_ / "library";
+  const auto result = synchronize(settings_);
+  ASSERT_FALSE(result);
+  EXPECT_THAT(result.error().place, HasSubstr((folder_ / "library/Eraser.json").string()));
+}
+
+TEST_F(Synchronize, ReportsStagesInOrder) {
+  std::vector<std::string> stages;
+  Progress progress;
+  progress.report = [&](std::string_view stage, double share) {
+    EXPECT_GE(share, 0.0);
+    EXPECT_LE(share, 1.0);
+    if (stages.empty() || stages.back() != stage) stages.emplace_back(stage);
+  };
+  ASSERT_TRUE(synchronize(settings_, progress));
+  EXPECT_THAT(stages, testing::Contains("search"));
+}
+
+}  // namespace
+}  // namespace ifa
