@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "dynamics/energy.h"
 #include "dynamics/flight.h"
 
 namespace ifa {
@@ -56,44 +57,103 @@ Vec<double> vec(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 }  // namespace
 
+namespace {
+
+/// One problem of timing, and its steps.
+class Timing {
+ public:
+  Timing(const BodyModel& model, const RigidState& after, const PlausibleRegion& region,
+         double duration)
+      : model_(model),
+        after_(after),
+        region_(region),
+        duration_(duration),
+        start_(kernelState(after, 0)),
+        rotation_(start_.q),
+        drop_(after.position.z() - 0.5 * kGravity * duration * duration) {}
+
+  /// A Gauss-Newton step of least norm towards a touch in time; false when it is there already.
+  bool approach(Coordinates& wish) const {
+    Vector3d linear, angular;
+    region_.change(wish, linear, angular);
+    const Vector3d spin = after_.angularVelocity + angular;
+    const TurnedUp now = turned(spin);
+    const std::size_t lowest = lowestVertex(model_, now.up());
+    const double height = heightOf(model_, lowest, now.up());
+    const double miss = drop_ + (after_.velocity.z() + linear.z()) * duration_ + height;
+    if (std::abs(miss) < 1e-9) return false;
+    const Vec<double> r =
+        now.rotation * Vec<double>{model_.x[lowest], model_.y[lowest], model_.z[lowest]};
+    const Vec<double> lever = aimed(vec(spin) * duration_, {r.y * duration_, -r.x * duration_, 0});
+    Coordinates slope;
+    slope.head<3>() = duration_ * region_.linearAxes().row(2).transpose();
+    slope.tail<3>() = region_.angularAxes().transpose() * Vector3d(lever.x, lever.y, lever.z);
+    wish -= slope * (miss / slope.squaredNorm());
+    return true;
+  }
+
+  /// Closes the time exactly by the vertical velocity.
+  [[nodiscard]] std::optional<TimedFlight> close(const Coordinates& wish) const {
+    TimedFlight flight;
+    region_.change(wish, flight.velocityChange, flight.angularVelocityChange);
+    const TurnedUp now = turned(after_.angularVelocity + flight.angularVelocityChange);
+    const std::size_t lowest = lowestVertex(model_, now.up());
+    const double rise = -(drop_ + heightOf(model_, lowest, now.up())) / duration_;
+    flight.velocityChange.z() = rise - after_.velocity.z();
+    const Vec<double> upRate = cross(now.up(), now.w);
+    if (rise - kGravity * duration_ + heightOf(model_, lowest, upRate) >= 0) return std::nullopt;
+    flight.bend = region_.bend(flight.velocityChange, flight.angularVelocityChange);
+    flight.departure = after_;
+    flight.departure.velocity += flight.velocityChange;
+    flight.departure.angularVelocity += flight.angularVelocityChange;
+    flight.energy = totalEnergy(model_, flight.departure);
+    if (!std::isfinite(flight.bend)) return std::nullopt;
+    return flight;
+  }
+
+  /// Moves the flight's coordinates so that, to first order, `excess` of energy goes.
+  [[nodiscard]] Coordinates cooled(const TimedFlight& flight, double excess) const {
+    const RigidState& state = flight.departure;
+    const Vec<double> momentum =
+        angularMomentum(model_, rotation_, rotation_.transposed(vec(state.angularVelocity)));
+    Coordinates slope;
+    slope.head<3>() = model_.mass * region_.linearAxes().transpose() * state.velocity;
+    slope.tail<3>() =
+        region_.angularAxes().transpose() * Vector3d(momentum.x, momentum.y, momentum.z);
+    return region_.coordinates(flight.velocityChange, flight.angularVelocityChange) -
+           slope * (excess / slope.squaredNorm());
+  }
+
+ private:
+  [[nodiscard]] TurnedUp turned(const Vector3d& spin) const {
+    return turn(model_, start_.q, rotation_.transposed(vec(spin)), duration_);
+  }
+
+  const BodyModel& model_;
+  const RigidState& after_;
+  const PlausibleRegion& region_;
+  double duration_;
+  KernelState<double> start_;
+  Rotation<double> rotation_;
+  double drop_;  ///< height of the centre of mass by then, had it no vertical velocity
+};
+
+}  // namespace
+
 std::optional<TimedFlight> timeFlight(const BodyModel& model, const RigidState& after,
                                       const PlausibleRegion& region, Coordinates wish,
-                                      double duration) {
-  const KernelState<double> start = kernelState(after, 0);
-  const Rotation<double> rotation(start.q);
-  const double drop = after.position.z() - 0.5 * kGravity * duration * duration;
-  TimedFlight flight;
-  const auto turned = [&](const Vector3d& spin) {
-    return turn(model, start.q, rotation.transposed(vec(spin)), duration);
-  };
-  for (int step = 0; step < 2; ++step) {
-    region.change(wish, flight.velocityChange, flight.angularVelocityChange);
-    const Vector3d spin = after.angularVelocity + flight.angularVelocityChange;
-    const TurnedUp now = turned(spin);
-    const std::size_t lowest = lowestVertex(model, now.up());
-    const double height = heightOf(model, lowest, now.up());
-    const double miss = drop + (after.velocity.z() + flight.velocityChange.z()) * duration + height;
-    if (std::abs(miss) < 1e-9) break;
-    Coordinates slope;
-    slope.head<3>() = duration * region.linearAxes().row(2).transpose();
-    const Vec<double> r =
-        now.rotation * Vec<double>{model.x[lowest], model.y[lowest], model.z[lowest]};
-    const Vec<double> lever = aimed(vec(spin) * duration, {r.y * duration, -r.x * duration, 0});
-    slope.tail<3>() = region.angularAxes().transpose() * Vector3d(lever.x, lever.y, lever.z);
-    wish -= slope * (miss / slope.squaredNorm());
+                                      double duration, double mostEnergy) {
+  constexpr int kCoolings = 3;
+  const Timing timing(model, after, region, duration);
+  std::optional<TimedFlight> flight;
+  for (int cooling = 0; cooling <= kCoolings; ++cooling) {
+    for (int step = 0; step < 2 && timing.approach(wish); ++step) {
+    }
+    flight = timing.close(wish);
+    if (!flight || flight->energy <= mostEnergy) break;
+    // A little more than asked for: timing it again gives some back.
+    wish = timing.cooled(*flight, 1.1 * (flight->energy - mostEnergy));
   }
-  region.change(wish, flight.velocityChange, flight.angularVelocityChange);
-  const TurnedUp now = turned(after.angularVelocity + flight.angularVelocityChange);
-  const std::size_t lowest = lowestVertex(model, now.up());
-  const double rise = -(drop + heightOf(model, lowest, now.up())) / duration;
-  flight.velocityChange.z() = rise - after.velocity.z();
-  const Vec<double> upRate = cross(now.up(), now.w);
-  if (rise - kGravity * duration + heightOf(model, lowest, upRate) >= 0) return std::nullopt;
-  flight.bend = region.bend(flight.velocityChange, flight.angularVelocityChange);
-  flight.departure = after;
-  flight.departure.velocity += flight.velocityChange;
-  flight.departure.angularVelocity += flight.angularVelocityChange;
-  if (!std::isfinite(flight.bend)) return std::nullopt;
   return flight;
 }
 

@@ -19,6 +19,7 @@ struct TimedFlight {
   Eigen::Vector3d velocityChange, angularVelocityChange;  ///< world frame, m/s and rad/s
   RigidState departure;                                   ///< after the change
   double bend = 0;
+  double energy = 0;  ///< of the departure, J
 };
 
 /// The change nearest to the coordinates `wish` (in the metric of the plausible region) after which
@@ -27,7 +28,7 @@ struct TimedFlight {
 /// velocity. Whether something touches earlier is not looked at here.
 [[nodiscard]] std::optional<TimedFlight> timeFlight(const BodyModel& model, const RigidState& after,
                                                     const PlausibleRegion& region, Coordinates wish,
-                                                    double duration);
+                                                    double duration, double mostEnergy);
 
 /// State at the first touch of a flight from `departure` within `limit` seconds, and when.
 struct Touch {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "base/parallel.h"
 #include "base/portable_math.h"
@@ -91,6 +92,11 @@ void ShootingSearch::plantRoots(const std::function<bool()>& stop) {
 void ShootingSearch::expandLevel(std::size_t level, const std::function<bool()>& stop) {
   const auto& events = problem_.request.signature.events;
   const std::size_t n = events.size();
+  // Where few motions are left, each gets more children: the work, not the hope, stays the same.
+  const auto& set = problem_.settings;
+  const double few =
+      set.beam * width_ / static_cast<double>(std::max<std::size_t>(1, levels_[level].size()));
+  const double effort = std::clamp(few, 1.0, set.mostEffort);
   for (std::size_t next = level + 1; next < n; ++next) {
     const bool last = next + 1 == n;
     double bound = kNoBound;
@@ -103,7 +109,7 @@ void ShootingSearch::expandLevel(std::size_t level, const std::function<bool()>&
         const RandomStream random(problem_.request.settings.seed ^ (pass_ << 48),
                                   (static_cast<std::uint64_t>(level) << 40) + (next << 24) + index);
         workers[i].expand(levels_[level][index], static_cast<int>(index), static_cast<int>(next),
-                          random, bound);
+                          effort, random, bound);
       });
       for (ShootingWorker& worker : workers) {
         deaths_[level] += worker.deaths;
@@ -131,13 +137,19 @@ void ShootingSearch::keepBest(std::vector<ShootingNode>& candidates) const {
   std::map<int, int> ofBin;
   std::vector<ShootingNode> kept;
   const auto most = static_cast<std::size_t>(set.beam * width_);
+  std::set<std::pair<int, int>> parents;
+  for (const ShootingNode& node : candidates) parents.insert({node.parentLevel, node.parent});
+  const int perParent =
+      std::max(set.perParent,
+               static_cast<int>(1.5 * set.beam * width_ /
+                                static_cast<double>(std::max<std::size_t>(1, parents.size()))));
   for (const ShootingNode& node : candidates) {
     if (kept.size() >= most) break;
     const double above = std::max(node.energyAfter - problem_.outlook.restEnergy(), 1e-12);
     const int bin = static_cast<int>(portableLog(above) / set.energyBin + 1000);
     int& parent = ofParent[{node.parentLevel, node.parent}];
     int &root = ofRoot[node.root], &energy = ofBin[bin];
-    const bool full = (node.parent >= 0 && parent >= set.perParent) || root >= set.perRoot ||
+    const bool full = (node.parent >= 0 && parent >= perParent) || root >= set.perRoot ||
                       energy >= static_cast<int>(set.perEnergyBin * width_);
     if (full) continue;
     ++parent;

@@ -45,6 +45,7 @@ struct ShootingNode {
   double firstAmplitude = 1;  ///< N s
   LogScore log;
   double rank = 0;
+  double flightCost = 0;  ///< log units of the least change that flies to the next target
   double silentOff =
       1e9;  ///< how far the unchanged motion misses the next target after silent contact
   double energyBefore = 0, energyAfter = 0;  ///< J

@@ -8,6 +8,7 @@ struct ShootingSettings {
   int firstContacts = 3000;  ///< initial states tried
   int beam = 300;            ///< partial motions kept from one contact to the next
   int children = 8;          ///< changes of velocity tried on each
+  double mostEffort = 6;     ///< a small beam gets more children, by up to this factor
   int lastContacts = 2;      ///< contacts before the end that get more ...
   int lastFactor = 6;        ///< ... by this factor: few motions come to rest exactly there
   int perParent = 3;         ///< of the kept ones, at most so many have one parent, ...

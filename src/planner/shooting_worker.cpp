@@ -65,6 +65,9 @@ void ShootingWorker::plant(unsigned root, std::uint64_t seed) {
   arrive(node, node, {}, start, problem_.model.surface.restitution, -1e300);
 }
 
+/// Contacts that are to be heard apart stay a merge gap apart, but for rounding.
+double ShootingWorker::shortestPassage() const { return problem_.recorder.mergeGap - 1e-6; }
+
 double ShootingWorker::droppedBetween(int from, int to) const {
   double penalty = 0;
   for (int k = from + 1; k < to; ++k) {
@@ -83,8 +86,8 @@ double ShootingWorker::variedRestitution(int level, int attempt, RandomStream& r
   return std::min(0.95, nominal * (1 + range * random.uniform(-1, 1)));
 }
 
-void ShootingWorker::expand(const ShootingNode& node, int index, int level, RandomStream random,
-                            double bound) {
+void ShootingWorker::expand(const ShootingNode& node, int index, int level, double effort,
+                            RandomStream random, double bound) {
   const auto& set = problem_.settings;
   const int n = static_cast<int>(problem_.targets.size());
   ShootingNode child;
@@ -97,12 +100,15 @@ void ShootingWorker::expand(const ShootingNode& node, int index, int level, Rand
   child.log.sound -= droppedBetween(node.level, level);
   child.start = problem_.request.signature.events[static_cast<std::size_t>(level)].time;
   const double duration = child.start - node.start - node.event.end;
-  if (duration < problem_.recorder.mergeGap) {
+  if (duration < shortestPassage()) {
     ++deaths.noTime;
     return;
   }
   const PlausibleRegion region = regionOf(node.event);
-  const int count = set.children * (level >= n - set.lastContacts ? set.lastFactor : 1);
+  // The least change that flies there is known; where even that bends too much, none will do.
+  const bool flies = node.flightCost < -logVelocity(1.2 * problem_.request.settings.bendCap);
+  const int more = level >= n - set.lastContacts ? set.lastFactor : 1;
+  const int count = flies ? static_cast<int>(set.children * more * effort) : 0;
   for (int i = 0; i < count; ++i) {
     Coordinates wish = Coordinates::Zero();
     if (i > 0) {
@@ -114,7 +120,8 @@ void ShootingWorker::expand(const ShootingNode& node, int index, int level, Rand
     shoot(node, child, region, wish, duration, restitution, bound);
   }
   if (node.silentOff > set.silentReach) return;
-  const int tries = set.silentTries * (level >= n - set.lastContacts ? 3 : 1);
+  const int tries =
+      static_cast<int>(set.silentTries * (flies ? 1 : 3) * (more > 1 ? 2 : 1) * effort);
   for (int i = 0; i < tries; ++i) {
     Coordinates direction;
     for (int axis = 0; axis < 6; ++axis) direction[axis] = bellShaped(random);
@@ -126,7 +133,9 @@ void ShootingWorker::expand(const ShootingNode& node, int index, int level, Rand
 void ShootingWorker::shoot(const ShootingNode& node, ShootingNode child,
                            const PlausibleRegion& region, const Coordinates& wish, double duration,
                            double restitution, double bound) {
-  const auto flight = timeFlight(problem_.model, node.event.after, region, wish, duration);
+  const double mostEnergy = node.energyBefore * (1 + problem_.request.settings.energyGain);
+  const auto flight =
+      timeFlight(problem_.model, node.event.after, region, wish, duration, mostEnergy);
   if (!flight) {
     ++deaths.noFlight;
     return;
@@ -136,8 +145,7 @@ void ShootingWorker::shoot(const ShootingNode& node, ShootingNode child,
     ++deaths.bent;
     return;
   }
-  if (!energyAllows(node.energyBefore, totalEnergy(problem_.model, flight->departure),
-                    problem_.request.settings.energyGain)) {
+  if (flight->energy > mostEnergy) {
     ++deaths.energy;
     return;
   }
@@ -256,8 +264,9 @@ double ShootingWorker::lookAhead(ShootingNode& node) const {
   const double time =
       problem_.request.signature.events[static_cast<std::size_t>(node.level + 1)].time;
   const double duration = time - node.start - node.event.end;
-  if (duration < problem_.recorder.mergeGap) return 2 * hopeless;
+  if (duration < shortestPassage()) return 2 * hopeless;
   const double flying = flightCost(node, duration);
+  node.flightCost = flying;
   if (flying < 1) return flying;
   const auto next = simulation_.nextAudible(node.event.after, 2 * duration + 0.02);
   if (!next || !next->silentContact) return std::min(flying, hopeless);
@@ -266,12 +275,11 @@ double ShootingWorker::lookAhead(ShootingNode& node) const {
 }
 
 double ShootingWorker::flightCost(const ShootingNode& node, double duration) const {
+  const double mostEnergy = node.energyBefore * (1 + problem_.request.settings.energyGain);
   const auto flight = timeFlight(problem_.model, node.event.after, regionOf(node.event),
-                                 Coordinates::Zero(), duration);
+                                 Coordinates::Zero(), duration, mostEnergy);
   if (!flight) return problem_.settings.hopeless;
-  const bool allowed =
-      energyAllows(node.energyBefore, totalEnergy(problem_.model, flight->departure),
-                   problem_.request.settings.energyGain);
+  const bool allowed = flight->energy <= mostEnergy;
   const auto touch = firstTouch(problem_.model, flight->departure, duration + 1e-3);
   const bool clear = touch && std::abs(touch->time - duration) < kTouchPrecision;
   return -logVelocity(flight->bend) + (allowed ? 0 : 2) + (clear ? 0 : 2);

@@ -17,8 +17,10 @@ class ShootingWorker {
   /// Motions of one contact, from sampled initial state number `root`.
   void plant(unsigned root, std::uint64_t seed);
   /// Motions from `node` to target `level` (later than the node's own).
+  /// @param effort  scales the number of children
   /// @param bound  children whose log score cannot get above are not simulated
-  void expand(const ShootingNode& node, int index, int level, RandomStream random, double bound);
+  void expand(const ShootingNode& node, int index, int level, double effort, RandomStream random,
+              double bound);
 
   std::vector<ShootingNode> children;
   ShootingDeaths deaths;
@@ -41,6 +43,7 @@ class ShootingWorker {
   void judge(ShootingNode& child) const;
   [[nodiscard]] double lookAhead(ShootingNode& node) const;
   [[nodiscard]] double flightCost(const ShootingNode& node, double duration) const;
+  [[nodiscard]] double shortestPassage() const;
   [[nodiscard]] double droppedBetween(int from, int to) const;
   [[nodiscard]] double variedRestitution(int level, int attempt, RandomStream& random) const;
   [[nodiscard]] PlausibleRegion regionOf(const ContactEvent& event) const;
