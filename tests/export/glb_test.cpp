@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "audit/analytic_motion.h"
+#include "body/object_file.h"
 #include "export/drawable_mesh.h"
 #include "export/pose_track.h"
 
@@ -200,16 +201,22 @@ TEST(Glb, PassesTheKhronosValidator) {
   if (!std::filesystem::exists(here / "node_modules/gltf-validator")) {
     GTEST_SKIP() << "the validator is not installed: npm ci in tests/export";
   }
-  const auto folder = std::filesystem::path(testing::TempDir());
-  const std::string tumbling = (folder / "ifa_tumbling.glb").string();
-  const std::string sliding = (folder / "ifa_sliding.glb").string();
-  ASSERT_TRUE(writeGlb(tumbling, test::makeTumblingMotion(box()), box()).has_value());
-  ASSERT_TRUE(writeGlb(sliding, test::makeSlidingMotion(box()), box()).has_value());
-  const std::string command =
-      "node '" + (here / "validate_glb.mjs").string() + "' '" + tumbling + "' '" + sliding + "'";
+  const auto folder = std::filesystem::path(testing::TempDir()) / "ifa_glb";
+  std::filesystem::create_directories(folder);
+  std::string command = "node '" + (here / "validate_glb.mjs").string() + "'";
+  const auto write = [&](const std::string& name, const Motion& motion, const Body& body) {
+    const std::string path = (folder / (name + ".glb")).string();
+    ASSERT_TRUE(writeGlb(path, motion, body).has_value());
+    command += " '" + path + "'";
+  };
+  const Motion sliding = test::makeSlidingMotion(box());
+  write("tumbling", test::makeTumblingMotion(box()), box());
+  write("sliding", sliding, box());
+  const auto objects = listObjects();
+  ASSERT_TRUE(objects.has_value());
+  for (const std::string& name : *objects) write(name, sliding, loadObject(name).value());
   EXPECT_EQ(std::system(command.c_str()), 0);
-  std::filesystem::remove(tumbling);
-  std::filesystem::remove(sliding);
+  std::filesystem::remove_all(folder);
 }
 
 TEST(DrawableMesh, KeepsABoxFlatAndACylinderRound) {
