@@ -27,6 +27,10 @@ enum class Advance {
 /// Not thread safe; make one per thread. The model must outlive it.
 class Stepper {
  public:
+  /// A limit that never binds. A limit that does shortens a segment or a step, and so changes the last bits:
+  /// whoever wants the same bits again uses this and looks at the time.
+  static constexpr double kNoLimit = 1e9;
+
   explicit Stepper(const BodyModel& body);
 
   /// Begins anew from `state`, with no memory of earlier contacts.

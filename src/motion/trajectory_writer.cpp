@@ -75,7 +75,7 @@ bool TrajectoryWriter::run(Stepper& stepper, double time, double limit, bool sil
                            const std::function<bool(const Stepper&, Advance)>& done) {
   while (stepper.state().time < limit) {
     const KernelState<double> from = stepper.state();
-    const Advance did = stepper.advance(limit);
+    const Advance did = stepper.advance(Stepper::kNoLimit);
     const KernelState<double>& to = stepper.state();
     switch (did) {
       case Advance::kFlight:

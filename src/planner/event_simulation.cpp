@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "planner/event_simulation.h"
 
+#include <algorithm>
+
 namespace ifa {
 
 namespace {
@@ -21,7 +23,7 @@ void EventSimulation::outcomes(const RigidState& arrival, double restitution, bo
   double end = -1;
   bool ended = false, rest = false;
   while (!ended && !rest && stepper_.state().time < kLongestEvent) {
-    const Advance did = stepper_.advance(kLongestEvent);
+    const Advance did = stepper_.advance(Stepper::kNoLimit);
     if (did == Advance::kImpact || did == Advance::kContact) {
       recorder.add(stepper_.contactStep());
     } else {
@@ -60,20 +62,22 @@ std::optional<NextContact> EventSimulation::nextAudible(const RigidState& state,
   EventRecorder recorder(recorder_);
   stepper_.start(kernelState(state, 0));
   NextContact next;
+  double firstTouch = 1e9;
   while (stepper_.state().time < horizon + kBinSlack) {
-    const Advance did = stepper_.advance(horizon + kBinSlack);
+    const Advance did = stepper_.advance(Stepper::kNoLimit);
     if (did == Advance::kImpact || did == Advance::kContact) {
       recorder.add(stepper_.contactStep());
+      firstTouch = std::min(firstTouch, stepper_.before().time);
     } else {
       recorder.elapse(stepper_.state().time);
     }
     if (!recorder.events().empty()) break;
     if (did == Advance::kRest) return std::nullopt;
-    next.silentContact = next.silentContact || did == Advance::kContact;
   }
   const std::vector<ContactEvent> events = recorder.finish(false);
   if (events.empty()) return std::nullopt;
   next.delay = events[0].start;
+  next.silentContact = firstTouch < events[0].start;
   next.state = events[0].before;
   return next;
 }

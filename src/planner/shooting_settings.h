@@ -19,7 +19,9 @@ struct ShootingSettings {
   double spread = 0.45;        ///< standard deviation of a change, in units of the plausible region
   double outlookWeight = 0.5;  ///< of the energy outlook beyond one standard deviation
   double hopeless = 8;  ///< log units that a motion without a way to the next contact loses in rank
-  int silentTries = 2;  ///< directions tried where the next contact comes after silent contact
+  int silentProbes = 16;  ///< changes tried where the next contact comes after silent contact
+  int silentTries = 3;    ///< pairs of them, one too early and one too late, that are followed up
+  int silentBeam = 150;   ///< best motions on which that is tried
   double silentReach =
       2.5;  ///< and only where the unchanged motion misses by less (30 % of the gap is 1)
   double restitutionRange = 0.2;  ///< relative, inside continuous and last events

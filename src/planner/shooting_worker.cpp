@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "planner/shooting_worker.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -35,7 +36,7 @@ bool closeIn(const Miss& miss, double low, double high, double atLow, double atH
     const double share = step % 3 == 2 ? 0.5 : atLow / (atLow - atHigh);
     const double middle = low + (high - low) * std::clamp(share, 0.01, 0.99);
     const double off = miss(middle);
-    if (off > kNever) return false;
+    if (off >= kNever) return false;
     if (std::abs(off) < kSilentPrecision) return true;
     if ((off < 0) == (atLow < 0)) {
       low = middle;
@@ -48,6 +49,61 @@ bool closeIn(const Miss& miss, double low, double high, double atLow, double atH
     }
   }
   return false;
+}
+
+/// A change of velocity, and by how much the next audible contact then comes too late, s.
+struct SilentProbe {
+  Coordinates y = Coordinates::Zero();
+  double off = 0;
+};
+
+/// Two of them, one too early and one too late.
+struct SilentPair {
+  double cost;
+  SilentProbe early, late;
+};
+
+/// All such pairs, first those near each other, so that the way between them is smooth, and near to
+/// no change.
+std::vector<SilentPair> bracketing(const std::vector<SilentProbe>& probes) {
+  std::vector<SilentPair> pairs;
+  for (const SilentProbe& e : probes) {
+    for (const SilentProbe& l : probes) {
+      if (e.off >= 0 || l.off < 0) continue;
+      pairs.push_back({(e.y - l.y).norm() + 0.5 * (e.y + l.y).norm() + 30 * (l.off - e.off), e, l});
+    }
+  }
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const SilentPair& a, const SilentPair& b) { return a.cost < b.cost; });
+  return pairs;
+}
+
+SilentProbe nearestProbe(const std::vector<SilentProbe>& probes) {
+  return *std::min_element(probes.begin(), probes.end(), [](const auto& a, const auto& b) {
+    return std::abs(a.off) < std::abs(b.off);
+  });
+}
+
+/// Where a plane through the probes that end at the same contact as the nearest one is a little
+/// past zero.
+std::optional<Coordinates> extrapolated(const std::vector<SilentProbe>& probes) {
+  if (probes.empty()) return std::nullopt;
+  const SilentProbe nearest = nearestProbe(probes);
+  Eigen::Matrix<double, 6, 6> normal = 1e-3 * Eigen::Matrix<double, 6, 6>::Identity();
+  Coordinates right = Coordinates::Zero();
+  int count = 0;
+  for (const SilentProbe& probe : probes) {
+    const double apart = probe.off - nearest.off;
+    if (std::abs(apart) > 0.5 * std::abs(nearest.off) + 0.002) continue;
+    const Coordinates way = probe.y - nearest.y;
+    normal += way * way.transpose();
+    right += way * apart;
+    ++count;
+  }
+  if (count < 5) return std::nullopt;
+  const Coordinates slope = normal.ldlt().solve(right);
+  if (slope.squaredNorm() < 1e-12) return std::nullopt;
+  return Coordinates(nearest.y - slope * (1.2 * nearest.off / slope.squaredNorm()));
 }
 
 }  // namespace
@@ -64,6 +120,9 @@ void ShootingWorker::plant(unsigned root, std::uint64_t seed) {
   node.root = root;
   arrive(node, node, {}, start, problem_.model.surface.restitution, -1e300);
 }
+
+/// Silence is simulated for so long; later contacts are all just too late.
+double ShootingWorker::silentHorizon(double duration) { return 1.3 * duration + 0.01; }
 
 /// Contacts that are to be heard apart stay a merge gap apart, but for rounding.
 double ShootingWorker::shortestPassage() const { return problem_.recorder.mergeGap - 1e-6; }
@@ -106,7 +165,7 @@ void ShootingWorker::expand(const ShootingNode& node, int index, int level, doub
   }
   const PlausibleRegion region = regionOf(node.event);
   // The least change that flies there is known; where even that bends too much, none will do.
-  const bool flies = node.flightCost < -logVelocity(1.2 * problem_.request.settings.bendCap);
+  const bool flies = node.flightCost < -logVelocity(1.2 * settings().bendCap);
   const int more = level >= n - set.lastContacts ? set.lastFactor : 1;
   const int count = flies ? static_cast<int>(set.children * more * effort) : 0;
   for (int i = 0; i < count; ++i) {
@@ -119,29 +178,22 @@ void ShootingWorker::expand(const ShootingNode& node, int index, int level, doub
     const double restitution = variedRestitution(level, i, random);
     shoot(node, child, region, wish, duration, restitution, bound);
   }
-  if (node.silentOff > set.silentReach) return;
-  const int tries =
-      static_cast<int>(set.silentTries * (flies ? 1 : 3) * (more > 1 ? 2 : 1) * effort);
-  for (int i = 0; i < tries; ++i) {
-    Coordinates direction;
-    for (int axis = 0; axis < 6; ++axis) direction[axis] = bellShaped(random);
-    const double restitution = variedRestitution(level, i, random);
-    shootSilently(node, child, region, direction.normalized(), duration, restitution, bound);
-  }
+  if (node.silentOff > set.silentReach || index >= set.silentBeam) return;
+  const int probes = static_cast<int>((flies ? 0.5 : 1) * set.silentProbes);
+  shootSilently(node, child, region, duration, probes, random, bound);
 }
 
 void ShootingWorker::shoot(const ShootingNode& node, ShootingNode child,
                            const PlausibleRegion& region, const Coordinates& wish, double duration,
                            double restitution, double bound) {
-  const double mostEnergy = node.energyBefore * (1 + problem_.request.settings.energyGain);
+  const double mostEnergy = node.energyBefore * (1 + settings().energyGain);
   const auto flight =
       timeFlight(problem_.model, node.event.after, region, wish, duration, mostEnergy);
   if (!flight) {
     ++deaths.noFlight;
     return;
   }
-  if (flight->bend > problem_.request.settings.bendCap ||
-      child.log.total() + logVelocity(flight->bend) <= bound) {
+  if (flight->bend > settings().bendCap || child.log.total() + logVelocity(flight->bend) <= bound) {
     ++deaths.bent;
     return;
   }
@@ -160,40 +212,63 @@ void ShootingWorker::shoot(const ShootingNode& node, ShootingNode child,
 }
 
 /// The same where the next contact comes after silent contact, for which there is no closed form:
-/// looks along a line of changes for one after which the next audible contact comes in time, then
-/// bisects.
-void ShootingWorker::shootSilently(const ShootingNode& node, ShootingNode child,
-                                   const PlausibleRegion& region, const Coordinates& direction,
-                                   double duration, double restitution, double bound) {
+/// tries some changes, and between two of which one comes too early and one too late looks for one
+/// that comes in time.
+void ShootingWorker::shootSilently(const ShootingNode& node, const ShootingNode& child,
+                                   const PlausibleRegion& region, double duration, int probes,
+                                   RandomStream& random, double bound) {
+  const auto& set = problem_.settings;
+  const double horizon = silentHorizon(duration);
   Edge edge;
-  edge.arrival = Arrival::kSilentContact;
-  edge.duration = duration;
   std::optional<NextContact> next;
-  const auto miss = [&](double s) {
-    region.change(direction * s, edge.velocityChange, edge.angularChange);
+  const auto miss = [&](const Coordinates& y) {
+    region.change(y, edge.velocityChange, edge.angularChange);
     RigidState start = node.event.after;
     start.velocity += edge.velocityChange;
     start.angularVelocity += edge.angularChange;
-    next.reset();
-    if (energyAllows(node.energyBefore, totalEnergy(problem_.model, start),
-                     problem_.request.settings.energyGain)) {
-      next = simulation_.nextAudible(start, 2 * duration + 0.02);
+    if (!energyAllows(node.energyBefore, totalEnergy(problem_.model, start),
+                      settings().energyGain)) {
+      return kNever;
     }
-    return next ? next->delay - duration : 2 * kNever;
+    next = simulation_.nextAudible(start, horizon);
+    return (next ? std::min(next->delay, horizon) : horizon) - duration;
   };
-  constexpr std::array<double, 5> kPlaces = {-0.9, -0.4, 0.0, 0.4, 0.9};
-  std::array<double, 5> found{};
-  for (std::size_t i = 0; i < kPlaces.size(); ++i) found[i] = miss(kPlaces[i]);
-  for (std::size_t i = 0; i + 1 < kPlaces.size(); ++i) {
-    if (found[i] > kNever || found[i + 1] > kNever || (found[i] < 0) == (found[i + 1] < 0))
-      continue;
-    if (!closeIn(miss, kPlaces[i], kPlaces[i + 1], found[i], found[i + 1])) continue;
+  std::vector<SilentProbe> all;
+  for (int i = 0; i < probes; ++i) {
+    SilentProbe probe;
+    const double spread = i == 0 ? 0 : set.spread * (0.3 + 0.9 * i / probes);
+    for (int axis = 0; axis < 6; ++axis) probe.y[axis] = spread * bellShaped(random);
+    probe.off = miss(probe.y);
+    if (probe.off < kNever) all.push_back(probe);
+  }
+  std::vector<SilentPair> pairs = bracketing(all);
+  if (const auto aimed = extrapolated(all); aimed && aimed->norm() < 1.5 * settings().bendCap) {
+    const double off = miss(*aimed);
+    const SilentProbe nearest = nearestProbe(all);
+    if (off < kNever && (off < 0) != (nearest.off < 0)) {
+      const SilentProbe end{*aimed, off};
+      pairs.insert(pairs.begin(),
+                   off < 0 ? SilentPair{0, end, nearest} : SilentPair{0, nearest, end});
+    }
+  }
+  if (pairs.size() > static_cast<std::size_t>(set.silentTries)) {
+    pairs.resize(static_cast<std::size_t>(set.silentTries));
+  }
+  int attempt = 0;
+  for (const SilentPair& pair : pairs) {
+    const auto along = [&](double s) {
+      return miss(pair.early.y + s * (pair.late.y - pair.early.y));
+    };
+    if (!closeIn(along, 0, 1, pair.early.off, pair.late.off) || !next) continue;
     edge.bend = region.bend(edge.velocityChange, edge.angularChange);
-    if (child.log.total() + logVelocity(edge.bend) <= bound) continue;
-    if (!next->silentContact) edge.arrival = Arrival::kFlight;
-    const RigidState arrival = next->state;
+    if (edge.bend > settings().bendCap || child.log.total() + logVelocity(edge.bend) <= bound) {
+      ++deaths.bent;
+      continue;
+    }
+    edge.arrival = next->silentContact ? Arrival::kSilentContact : Arrival::kFlight;
     edge.duration = next->delay;
-    arrive(node, child, edge, arrival, restitution, bound);
+    const RigidState arrival = next->state;
+    arrive(node, child, edge, arrival, variedRestitution(child.level, attempt++, random), bound);
   }
 }
 
@@ -219,7 +294,7 @@ void ShootingWorker::arrive(const ShootingNode& node, ShootingNode child, const 
   child.bend = std::sqrt(edge.bend * edge.bend + rebound * rebound);
   child.log.motion += logVelocity(child.bend);
   child.log.velocity += logVelocity(child.bend);
-  if (child.bend > problem_.request.settings.bendCap) return;
+  if (child.bend > settings().bendCap) return;
 
   std::vector<ShootingNode> endings;
   for (const ContactEvent& event : outcomes_) {
@@ -268,14 +343,16 @@ double ShootingWorker::lookAhead(ShootingNode& node) const {
   const double flying = flightCost(node, duration);
   node.flightCost = flying;
   if (flying < 1) return flying;
-  const auto next = simulation_.nextAudible(node.event.after, 2 * duration + 0.02);
-  if (!next || !next->silentContact) return std::min(flying, hopeless);
-  node.silentOff = std::abs(next->delay - duration) / std::max(0.01, 0.3 * duration);
-  return std::min({hopeless, flying, 0.2 + node.silentOff * node.silentOff});
+  const double horizon = silentHorizon(duration);
+  const auto next = simulation_.nextAudible(node.event.after, horizon);
+  if (next && !next->silentContact) return std::min(flying, hopeless);
+  const double delay = next ? std::min(next->delay, horizon) : horizon;
+  node.silentOff = std::abs(delay - duration) / std::max(0.004, 0.1 * duration);
+  return std::min({hopeless, flying, 0.5 + node.silentOff * node.silentOff});
 }
 
 double ShootingWorker::flightCost(const ShootingNode& node, double duration) const {
-  const double mostEnergy = node.energyBefore * (1 + problem_.request.settings.energyGain);
+  const double mostEnergy = node.energyBefore * (1 + settings().energyGain);
   const auto flight = timeFlight(problem_.model, node.event.after, regionOf(node.event),
                                  Coordinates::Zero(), duration, mostEnergy);
   if (!flight) return problem_.settings.hopeless;

@@ -35,15 +35,17 @@ class ShootingWorker {
 
   void shoot(const ShootingNode& node, ShootingNode child, const PlausibleRegion& region,
              const Coordinates& wish, double duration, double restitution, double bound);
-  void shootSilently(const ShootingNode& node, ShootingNode child, const PlausibleRegion& region,
-                     const Coordinates& direction, double duration, double restitution,
-                     double bound);
+  void shootSilently(const ShootingNode& node, const ShootingNode& child,
+                     const PlausibleRegion& region, double duration, int probes,
+                     RandomStream& random, double bound);
   void arrive(const ShootingNode& node, ShootingNode child, const Edge& edge,
               const RigidState& arrival, double restitution, double bound);
   void judge(ShootingNode& child) const;
   [[nodiscard]] double lookAhead(ShootingNode& node) const;
   [[nodiscard]] double flightCost(const ShootingNode& node, double duration) const;
+  [[nodiscard]] const PlannerSettings& settings() const { return problem_.request.settings; }
   [[nodiscard]] double shortestPassage() const;
+  [[nodiscard]] static double silentHorizon(double duration);
   [[nodiscard]] double droppedBetween(int from, int to) const;
   [[nodiscard]] double variedRestitution(int level, int attempt, RandomStream& random) const;
   [[nodiscard]] PlausibleRegion regionOf(const ContactEvent& event) const;
