@@ -19,6 +19,7 @@ struct ShootingSettings {
   double spread = 0.45;        ///< standard deviation of a change, in units of the plausible region
   double outlookWeight = 0.5;  ///< of the energy outlook beyond one standard deviation
   double hopeless = 8;  ///< log units that a motion without a way to the next contact loses in rank
+  double restless = 4;  ///< and when it would not come to rest in the last contact
   int silentProbes = 16;  ///< changes tried where the next contact comes after silent contact
   int silentTries = 3;    ///< pairs of them, one too early and one too late, that are followed up
   int silentBeam = 150;   ///< best motions on which that is tried

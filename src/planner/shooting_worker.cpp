@@ -301,9 +301,7 @@ void ShootingWorker::arrive(const ShootingNode& node, ShootingNode child, const 
     ShootingNode ending = child;
     ending.event = event;
     if (first) ending.firstAmplitude = event.amplitude;
-    const double length = event.filteredDuration(problem_.recorder.mergeGap);
-    ending.heard = {event.amplitude / ending.firstAmplitude, length,
-                    length > 0 ? event.centroid : 0};
+    ending.heard = heardOf(event, ending.firstAmplitude);
     ending.log.sound += logAmplitude(target, ending.heard) + logDuration(target, ending.heard) +
                         logCentroid(target, ending.heard);
     if (ending.log.total() > bound) endings.push_back(ending);
@@ -359,7 +357,27 @@ double ShootingWorker::flightCost(const ShootingNode& node, double duration) con
   const bool allowed = flight->energy <= mostEnergy;
   const auto touch = firstTouch(problem_.model, flight->departure, duration + 1e-3);
   const bool clear = touch && std::abs(touch->time - duration) < kTouchPrecision;
-  return -logVelocity(flight->bend) + (allowed ? 0 : 2) + (clear ? 0 : 2);
+  const double cost = -logVelocity(flight->bend) + (allowed ? 0 : 2) + (clear ? 0 : 2);
+  const bool closes = node.level + 2 == static_cast<int>(problem_.targets.size()) &&
+                      problem_.request.signature.terminal;
+  return closes && touch ? cost + endingCost(node, touch->state) : cost;
+}
+
+/// Log units lost by the last event if it began at `arrival`, as far as that is bearable.
+double ShootingWorker::endingCost(const ShootingNode& node, const RigidState& arrival) const {
+  std::vector<ContactEvent> endings;
+  simulation_.outcomes(arrival, problem_.model.surface.restitution, true, false, endings);
+  const double restless = problem_.settings.restless;
+  if (endings.empty()) return restless;
+  const HeardEvent heard = heardOf(endings[0], node.firstAmplitude);
+  const HeardEvent& target = problem_.targets.back();
+  return std::min(restless, -(logAmplitude(target, heard) + logDuration(target, heard) +
+                              logCentroid(target, heard)));
+}
+
+HeardEvent ShootingWorker::heardOf(const ContactEvent& event, double firstAmplitude) const {
+  const double length = event.filteredDuration(problem_.recorder.mergeGap);
+  return {event.amplitude / firstAmplitude, length, length > 0 ? event.centroid : 0};
 }
 
 }  // namespace ifa

@@ -46,6 +46,8 @@ class ShootingWorker {
   [[nodiscard]] const PlannerSettings& settings() const { return problem_.request.settings; }
   [[nodiscard]] double shortestPassage() const;
   [[nodiscard]] static double silentHorizon(double duration);
+  [[nodiscard]] double endingCost(const ShootingNode& node, const RigidState& arrival) const;
+  [[nodiscard]] HeardEvent heardOf(const ContactEvent& event, double firstAmplitude) const;
   [[nodiscard]] double droppedBetween(int from, int to) const;
   [[nodiscard]] double variedRestitution(int level, int attempt, RandomStream& random) const;
   [[nodiscard]] PlausibleRegion regionOf(const ContactEvent& event) const;
