@@ -2,6 +2,8 @@
 // The stages of `ifa sync`, one call each.
 #include "ifa/synchronize.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -29,8 +31,7 @@ tl::unexpected<Error> usage(std::string message, std::string place, std::string 
 
 Result<void> checkRange(double value, double low, double high, const char* place) {
   if (std::isfinite(value) && value >= low && value <= high) return {};
-  return usage("is out of range", place,
-               "give a number from " + std::to_string(low) + " to " + std::to_string(high));
+  return usage("is out of range", place, fmt::format("give a number from {:g} to {:g}", low, high));
 }
 
 Result<void> checkSettings(const SynchronizeSettings& settings) {
@@ -100,9 +101,9 @@ void auditTake(Motion& motion, const Body& body) {
                                    [](const AuditCheck& check) { return !check.passed; });
   if (failed == report.checks.end()) return;
   motion.success = false;
-  motion.failure = "the motion found does not hold its audit: " + failed->name + " is " +
-                   std::to_string(failed->worst) + " " + failed->unit + " at " +
-                   std::to_string(failed->time) + " s";
+  motion.failure =
+      fmt::format("the motion found does not hold its audit: {} is {:.3g} {} at {:.3f} s",
+                  failed->name, failed->worst, failed->unit, failed->time);
 }
 
 struct Search {
