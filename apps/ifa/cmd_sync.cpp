@@ -65,10 +65,13 @@ int syncSound(const SyncOptions& options, const std::set<OutputFormat>& formats,
       synchronizeToFolder(options.settings, options.output, formats, context.progress);
   if (!result) return context.fail(result.error());
   const auto& takes = result->takes;
+  const auto wanted = static_cast<std::size_t>(options.settings.takes);
   for (std::size_t i = 0; i < takes.size(); ++i) {
-    const bool several = takes.size() > 1;
     showTake(context.console, takes[i],
-             several ? options.output / fmt::format("take-{}", i + 1) : options.output);
+             wanted > 1 ? options.output / fmt::format("take-{}", i + 1) : options.output);
+  }
+  if (takes.size() < wanted) {
+    context.console.warn(fmt::format("{} of {} different motions found", takes.size(), wanted));
   }
   if (result->interrupted) return interrupted(context, "what was found is kept");
   if (!takes.front().success) {

@@ -56,9 +56,10 @@ enum class OutputFormat {
                                                   const Progress& progress = {});
 
 /// The same, written to `folder` (docs/file-formats.md): motion.json, sound.wav, timeline.svg, the
-/// object with its mesh, and what `formats` names; several takes go to take-1/, take-2/ and so on.
-/// Files appear only when all is done; those of an earlier run are replaced.
-/// Errors: as above, and kBadInput when the folder cannot be written (told before the search).
+/// object with its mesh, and what `formats` names; when several takes are wanted, each goes to
+/// take-1/, take-2/ and so on. Files appear only when all is done; those of an earlier run are
+/// replaced. Errors: as above, and kBadInput when the folder cannot be written (told before the
+/// search).
 [[nodiscard]] Result<Synchronization> synchronizeToFolder(const SynchronizeSettings& settings,
                                                           const std::filesystem::path& folder,
                                                           const std::set<OutputFormat>& formats,

@@ -63,9 +63,10 @@ void placeInSound(Motion& motion, const Heard& heard) {
   }
 }
 
-Result<void> writeTakes(const fs::path& folder, const std::vector<Motion>& takes, const Body& body,
-                        const Heard& heard, const std::set<OutputFormat>& formats) {
-  if (takes.size() == 1) return writeTake(folder, takes.front(), body, heard, formats);
+Result<void> writeTakes(const fs::path& folder, const std::vector<Motion>& takes, bool numbered,
+                        const Body& body, const Heard& heard,
+                        const std::set<OutputFormat>& formats) {
+  if (!numbered) return writeTake(folder, takes.front(), body, heard, formats);
   for (std::size_t i = 0; i < takes.size(); ++i) {
     const fs::path place = folder / takeName(i);
     std::error_code code;

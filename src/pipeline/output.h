@@ -15,11 +15,13 @@ namespace ifa {
 /// silence as the motion needs to begin at or after its first sample.
 void placeInSound(Motion& motion, const Heard& heard);
 
-/// Writes every take into `folder`, or into take-1/, take-2/... of it when there are several.
+/// Writes the first take into `folder`, or, when they are `numbered`, each into take-1/, take-2/...
+/// of it.
 /// Errors: those of the writers.
 [[nodiscard]] Result<void> writeTakes(const std::filesystem::path& folder,
-                                      const std::vector<Motion>& takes, const Body& body,
-                                      const Heard& heard, const std::set<OutputFormat>& formats);
+                                      const std::vector<Motion>& takes, bool numbered,
+                                      const Body& body, const Heard& heard,
+                                      const std::set<OutputFormat>& formats);
 
 /// Errors: kUsage when writing to `folder` would replace one of `inputs` or a file of the object.
 [[nodiscard]] Result<void> refuseToOverwrite(const std::filesystem::path& folder,

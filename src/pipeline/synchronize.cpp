@@ -184,7 +184,8 @@ Result<Synchronization> synchronizeToFolder(const SynchronizeSettings& settings,
   if (!staged) return tl::unexpected(staged.error());
   auto result = run(settings, *job, progress);
   if (!result) return result;
-  auto written = writeTakes(staged->path(), result->takes, job->body, job->heard, formats);
+  auto written =
+      writeTakes(staged->path(), result->takes, settings.takes > 1, job->body, job->heard, formats);
   if (written) written = staged->commit("motion.json", outputNames());
   if (!written) return tl::unexpected(written.error());
   return result;

@@ -70,11 +70,24 @@ TEST(WriteTakes, ASearchThatFoundNothingStillSaysWhy) {
   motion.failure = "contact 1 cannot be met";
   const Heard heard = heardAt(0.2);
   placeInSound(motion, heard);
-  const auto written = writeTakes(folder.path(), {motion}, body, heard, {OutputFormat::kGlb});
+  const auto written =
+      writeTakes(folder.path(), {motion}, false, body, heard, {OutputFormat::kGlb});
   ASSERT_TRUE(written) << written.error().text();
   EXPECT_THAT(folder.names(), Contains("motion.json"));
   EXPECT_THAT(folder.names(), Not(Contains("motion.glb")));
   EXPECT_THAT(test::readText(folder / "motion.json"), testing::HasSubstr(motion.failure));
+}
+
+TEST(WriteTakes, NumbersThemEvenWhenThereIsOnlyOne) {
+  const test::TemporaryFolder folder;
+  const Body body = loadObject("d6").value();
+  Motion motion;
+  motion.object = {"d6", "d6.obj", "desk", body.mass, 0.5, 0.3};
+  const Heard heard = heardAt(0.2);
+  placeInSound(motion, heard);
+  ASSERT_TRUE(writeTakes(folder.path(), {motion}, true, body, heard, {}));
+  EXPECT_THAT(folder.names(), Contains("take-1/motion.json"));
+  EXPECT_THAT(folder.names(), Not(Contains("motion.json")));
 }
 
 TEST(RefuseToOverwrite, LooksAtFilesAndNotAtNames) {
