@@ -12,9 +12,11 @@ namespace {
 
 /// Impacts at one instant before the body is taken to stay on the ground for the next step.
 constexpr int kImpactsAtOnce = 6;
+/// Vertices that would hit within this time hit together, s.
+constexpr double kTogether = 1e-4;
 /// A body that hardly moves for so long is at rest even when it stands on less than three points,
 /// s.
-constexpr double kQuiet = 0.05;
+constexpr double kQuiet = 0.5;
 
 }  // namespace
 
@@ -129,7 +131,7 @@ void Stepper::gather(const Rotation<double>& rotation, double reach, bool atOnce
   candidates_.clear();
   const double fall = kGravity * reach;
   for (std::size_t i = 0; i < gap_.size(); ++i) {
-    const bool near = gap_[i] <= body_.slop;
+    const bool near = gap_[i] <= (atOnce ? laneMax(body_.slop, -rate_[i] * kTogether) : body_.slop);
     const bool coming = gap_[i] + (rate_[i] - fall) * reach < 0;
     if (atOnce ? near : coming && (near || rate_[i] >= -body_.settings.bounceSpeed)) {
       candidates_.push_back(static_cast<int>(i));
@@ -180,7 +182,10 @@ Advance Stepper::impact(const Rotation<double>& rotation) {
     impulse_ = plastic + (impulse_ - plastic) * s;
   }
   state_.velocity = velocity;
-  state_.w = w;
+  lastPress_ = impulse_.z;
+  Vec<double> turned = rotation * w;
+  rollingFriction(1, rotation, turned);
+  state_.w = rotation.transposed(turned);
   ++impactsHere_;
   lastCount_ = 0;
   lastPress_ = 0;
