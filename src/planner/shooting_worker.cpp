@@ -1,110 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "planner/shooting_worker.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "base/portable_math.h"
 #include "dynamics/energy.h"
+#include "planner/silent_search.h"
 #include "sampler/initial_state.h"
 
 namespace ifa {
 
 namespace {
 
-/// A silent passage is timed to this, s; contact starts are exact to it.
-constexpr double kSilentPrecision = 1e-6;
 /// A touch that comes within this of the time asked for is that touch, s.
 constexpr double kTouchPrecision = 1e-7;
-/// Stands for a time that never comes, s.
-constexpr double kNever = 1e8;
 /// Ways to end one event that are followed up.
 constexpr std::size_t kMostEndings = 3;
-
-/// Nearly normal, without transcendental functions: four uniform numbers added up.
-double bellShaped(RandomStream& random) {
-  const double sum = random.uniform() + random.uniform() + random.uniform() + random.uniform();
-  return (sum - 2) * 1.7320508075688772;
-}
-
-/// Illinois' false position with a bisection now and then: the function may jump where another
-/// vertex comes first. Ends with a call of `miss` within the precision, or false.
-template <class Miss>
-bool closeIn(const Miss& miss, double low, double high, double atLow, double atHigh) {
-  for (int step = 0; step < 30; ++step) {
-    const double share = step % 3 == 2 ? 0.5 : atLow / (atLow - atHigh);
-    const double middle = low + (high - low) * std::clamp(share, 0.01, 0.99);
-    const double off = miss(middle);
-    if (off >= kNever) return false;
-    if (std::abs(off) < kSilentPrecision) return true;
-    if ((off < 0) == (atLow < 0)) {
-      low = middle;
-      atLow = off;
-      atHigh *= 0.5;
-    } else {
-      high = middle;
-      atHigh = off;
-      atLow *= 0.5;
-    }
-  }
-  return false;
-}
-
-/// A change of velocity, and by how much the next audible contact then comes too late, s.
-struct SilentProbe {
-  Coordinates y = Coordinates::Zero();
-  double off = 0;
-};
-
-/// Two of them, one too early and one too late.
-struct SilentPair {
-  double cost;
-  SilentProbe early, late;
-};
-
-/// All such pairs, first those near each other, so that the way between them is smooth, and near to
-/// no change.
-std::vector<SilentPair> bracketing(const std::vector<SilentProbe>& probes) {
-  std::vector<SilentPair> pairs;
-  for (const SilentProbe& e : probes) {
-    for (const SilentProbe& l : probes) {
-      if (e.off >= 0 || l.off < 0) continue;
-      pairs.push_back({(e.y - l.y).norm() + 0.5 * (e.y + l.y).norm() + 30 * (l.off - e.off), e, l});
-    }
-  }
-  std::stable_sort(pairs.begin(), pairs.end(),
-                   [](const SilentPair& a, const SilentPair& b) { return a.cost < b.cost; });
-  return pairs;
-}
-
-SilentProbe nearestProbe(const std::vector<SilentProbe>& probes) {
-  return *std::min_element(probes.begin(), probes.end(), [](const auto& a, const auto& b) {
-    return std::abs(a.off) < std::abs(b.off);
-  });
-}
-
-/// Where a plane through the probes that end at the same contact as the nearest one is a little
-/// past zero.
-std::optional<Coordinates> extrapolated(const std::vector<SilentProbe>& probes) {
-  if (probes.empty()) return std::nullopt;
-  const SilentProbe nearest = nearestProbe(probes);
-  Eigen::Matrix<double, 6, 6> normal = 1e-3 * Eigen::Matrix<double, 6, 6>::Identity();
-  Coordinates right = Coordinates::Zero();
-  int count = 0;
-  for (const SilentProbe& probe : probes) {
-    const double apart = probe.off - nearest.off;
-    if (std::abs(apart) > 0.5 * std::abs(nearest.off) + 0.002) continue;
-    const Coordinates way = probe.y - nearest.y;
-    normal += way * way.transpose();
-    right += way * apart;
-    ++count;
-  }
-  if (count < 5) return std::nullopt;
-  const Coordinates slope = normal.ldlt().solve(right);
-  if (slope.squaredNorm() < 1e-12) return std::nullopt;
-  return Coordinates(nearest.y - slope * (1.2 * nearest.off / slope.squaredNorm()));
-}
 
 }  // namespace
 
@@ -178,9 +90,22 @@ void ShootingWorker::expand(const ShootingNode& node, int index, int level, doub
     const double restitution = variedRestitution(level, i, random);
     shoot(node, child, region, wish, duration, restitution, bound);
   }
-  if (node.silentOff > set.silentReach || index >= set.silentBeam) return;
+  if (flies && level + 1 < n && index < set.silentBeam && stuckAfter(level)) {
+    shootAhead(node, child, region, duration, random, bound);
+  }
+  // Where nothing flies there, silence is the only way, however far off it is now: a body that tips
+  // over an edge takes any time, for a very small change.
+  if (node.silentOff > (flies ? set.silentReach : kNever) || index >= set.silentBeam) return;
   const int probes = static_cast<int>((flies ? 0.5 : 1) * set.silentProbes);
   shootSilently(node, child, region, duration, probes, random, bound);
+}
+
+/// Whether none of the children so far has an easy way from `level` to the next contact.
+bool ShootingWorker::stuckAfter(int level) const {
+  return std::none_of(children.begin(), children.end(), [&](const ShootingNode& child) {
+    return child.level == level &&
+           std::min(child.flightCost, 0.5 + child.silentOff * child.silentOff) < 3;
+  });
 }
 
 void ShootingWorker::shoot(const ShootingNode& node, ShootingNode child,
@@ -211,65 +136,76 @@ void ShootingWorker::shoot(const ShootingNode& node, ShootingNode child,
   arrive(node, child, edge, touch->state, restitution, bound);
 }
 
-/// The same where the next contact comes after silent contact, for which there is no closed form:
-/// tries some changes, and between two of which one comes too early and one too late looks for one
-/// that comes in time.
+/// The same where the next contact comes after silent contact, for which there is no closed form.
 void ShootingWorker::shootSilently(const ShootingNode& node, const ShootingNode& child,
                                    const PlausibleRegion& region, double duration, int probes,
                                    RandomStream& random, double bound) {
-  const auto& set = problem_.settings;
   const double horizon = silentHorizon(duration);
   Edge edge;
   std::optional<NextContact> next;
-  const auto miss = [&](const Coordinates& y) {
+  const auto probe = [&](const Coordinates& y) {
     region.change(y, edge.velocityChange, edge.angularChange);
     RigidState start = node.event.after;
     start.velocity += edge.velocityChange;
     start.angularVelocity += edge.angularChange;
+    next.reset();
     if (!energyAllows(node.energyBefore, totalEnergy(problem_.model, start),
                       settings().energyGain)) {
-      return kNever;
+      return SilentProbe{y, kNever, {}};
     }
     next = simulation_.nextAudible(start, horizon);
-    return (next ? std::min(next->delay, horizon) : horizon) - duration;
+    return silentProbe(y, next, horizon, duration);
   };
-  std::vector<SilentProbe> all;
-  for (int i = 0; i < probes; ++i) {
-    SilentProbe probe;
-    const double spread = i == 0 ? 0 : set.spread * (0.3 + 0.9 * i / probes);
-    for (int axis = 0; axis < 6; ++axis) probe.y[axis] = spread * bellShaped(random);
-    probe.off = miss(probe.y);
-    if (probe.off < kNever) all.push_back(probe);
-  }
-  std::vector<SilentPair> pairs = bracketing(all);
-  if (const auto aimed = extrapolated(all); aimed && aimed->norm() < 1.5 * settings().bendCap) {
-    const double off = miss(*aimed);
-    const SilentProbe nearest = nearestProbe(all);
-    if (off < kNever && (off < 0) != (nearest.off < 0)) {
-      const SilentProbe end{*aimed, off};
-      pairs.insert(pairs.begin(),
-                   off < 0 ? SilentPair{0, end, nearest} : SilentPair{0, nearest, end});
-    }
-  }
-  if (pairs.size() > static_cast<std::size_t>(set.silentTries)) {
-    pairs.resize(static_cast<std::size_t>(set.silentTries));
-  }
   int attempt = 0;
-  for (const SilentPair& pair : pairs) {
-    const auto along = [&](double s) {
-      return miss(pair.early.y + s * (pair.late.y - pair.early.y));
-    };
-    if (!closeIn(along, 0, 1, pair.early.off, pair.late.off) || !next) continue;
+  const auto found = [&] {
     edge.bend = region.bend(edge.velocityChange, edge.angularChange);
-    if (edge.bend > settings().bendCap || child.log.total() + logVelocity(edge.bend) <= bound) {
+    if (!next || edge.bend > settings().bendCap ||
+        child.log.total() + logVelocity(edge.bend) <= bound) {
       ++deaths.bent;
-      continue;
+      return;
     }
     edge.arrival = next->silentContact ? Arrival::kSilentContact : Arrival::kFlight;
     edge.duration = next->delay;
     const RigidState arrival = next->state;
     arrive(node, child, edge, arrival, variedRestitution(child.level, attempt++, random), bound);
-  }
+  };
+  findOnTime(probe, found, {probes, problem_.settings.silentTries, problem_.settings.spread},
+             random);
+}
+
+/// Flies to the next contact such that what follows it in silence ends on time at the one after:
+/// where a long gap comes with little energy, only motions that all but balance on an edge have the
+/// time.
+void ShootingWorker::shootAhead(const ShootingNode& node, const ShootingNode& child,
+                                const PlausibleRegion& region, double duration,
+                                RandomStream& random, double bound) {
+  const double mostEnergy = node.energyBefore * (1 + settings().energyGain);
+  const double after =
+      problem_.request.signature.events[static_cast<std::size_t>(child.level + 1)].time;
+  std::optional<TimedFlight> flight;
+  std::optional<Touch> touch;
+  const auto probe = [&](const Coordinates& y) {
+    const SilentProbe never{y, kNever, {}};
+    flight = timeFlight(problem_.model, node.event.after, region, y, duration, mostEnergy);
+    if (!flight || flight->bend > settings().bendCap || flight->energy > mostEnergy) return never;
+    touch = firstTouch(problem_.model, flight->departure, duration + 1e-3);
+    if (!touch || std::abs(touch->time - duration) > kTouchPrecision) return never;
+    simulation_.outcomes(touch->state, problem_.model.surface.restitution, false, false, outcomes_);
+    if (outcomes_.empty()) return never;
+    const double gap = after - child.start - outcomes_[0].end;
+    if (gap < shortestPassage()) return never;
+    const double horizon = silentHorizon(gap);
+    return silentProbe(y, simulation_.nextAudible(outcomes_[0].after, horizon), horizon, gap);
+  };
+  const auto found = [&] {
+    const Edge edge{flight->velocityChange, flight->angularVelocityChange, flight->bend,
+                    Arrival::kFlight, duration};
+    arrive(node, child, edge, touch->state, problem_.model.surface.restitution, bound);
+  };
+  findOnTime(
+      probe, found,
+      {problem_.settings.silentProbes, problem_.settings.silentTries, problem_.settings.spread},
+      random);
 }
 
 /// Simulates the contact event and keeps the ways it may end that fit the target best.

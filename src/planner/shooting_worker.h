@@ -38,6 +38,10 @@ class ShootingWorker {
   void shootSilently(const ShootingNode& node, const ShootingNode& child,
                      const PlausibleRegion& region, double duration, int probes,
                      RandomStream& random, double bound);
+  void shootAhead(const ShootingNode& node, const ShootingNode& child,
+                  const PlausibleRegion& region, double duration, RandomStream& random,
+                  double bound);
+  [[nodiscard]] bool stuckAfter(int level) const;
   void arrive(const ShootingNode& node, ShootingNode child, const Edge& edge,
               const RigidState& arrival, double restitution, double bound);
   void judge(ShootingNode& child) const;
