@@ -22,7 +22,7 @@ struct NextContact {
 class EventSimulation {
  public:
   EventSimulation(const BodyModel& model, const RecorderSettings& recorder)
-      : model_(model), recorder_(recorder), stepper_(model) {}
+      : recorder_(recorder), stepper_(model) {}
 
   /// Ways in which the event that begins at `arrival` may end: the natural one first, then, where
   /// `cuts` is set, at each earlier impulse that is heard (what follows is then up to the caller).
@@ -35,7 +35,6 @@ class EventSimulation {
   [[nodiscard]] std::optional<NextContact> nextAudible(const RigidState& state, double horizon);
 
  private:
-  const BodyModel& model_;
   RecorderSettings recorder_;
   Stepper stepper_;
 };
