@@ -9,6 +9,7 @@
 #include "dynamics/body_model.h"
 #include "dynamics/contact_solver.h"
 #include "dynamics/flight.h"
+#include "dynamics/ground_watch.h"
 #include "dynamics/kernel_state.h"
 #include "model/contact_step.h"
 
@@ -27,8 +28,8 @@ enum class Advance {
 /// Not thread safe; make one per thread. The model must outlive it.
 class Stepper {
  public:
-  /// A limit that never binds. A limit that does shortens a segment or a step, and so changes the last bits:
-  /// whoever wants the same bits again uses this and looks at the time.
+  /// A limit that never binds. A limit that does shortens a segment or a step, and so changes the
+  /// last bits: whoever wants the same bits again uses this and looks at the time.
   static constexpr double kNoLimit = 1e9;
 
   explicit Stepper(const BodyModel& body);
@@ -44,38 +45,44 @@ class Stepper {
   /// After kImpact and kContact: the state before, and the sum of impulses over all points, N s.
   [[nodiscard]] const KernelState<double>& before() const { return before_; }
   [[nodiscard]] const Vec<double>& impulse() const { return impulse_; }
-  [[nodiscard]] bool touching() const { return phase_ != Phase::kFlight; }
+  /// A vertex is at the ground and does not part from it.
+  [[nodiscard]] bool touching() const;
   [[nodiscard]] ContactStep contactStep() const;
 
  private:
+  using Solver = ContactSolver<double>;
+
+  void look();
   Advance fly(double limit);
   Advance touch(double limit);
-  Advance impact(const Rotation<double>& rotation);
-  Advance contact(const Rotation<double>& rotation, double limit);
-  void measure(const Rotation<double>& rotation, const Vec<double>& velocity, const Vec<double>& w);
-  double chooseStep(double limit) const;
-  void gather(const Rotation<double>& rotation, double reach, bool atOnce);
-  void addPoint(const Rotation<double>& rotation, std::size_t vertex);
-  void thin(const Rotation<double>& rotation);
-  double overshoot(const Rotation<double>& rotation, const Vec<double>& velocity,
-                   const Vec<double>& spin, double step) const;
-  void rollingFriction(double step, const Rotation<double>& rotation, Vec<double>& spin) const;
-  void move(const Rotation<double>& rotation, const Vec<double>& velocity, const Vec<double>& spin,
+  Advance impact();
+  Advance contact(double limit);
+  Advance lift();
+  void gatherHits();
+  void gatherHeld(double step);
+  void addPoints();
+  void aim(double step, const Rotation<double>& middle);
+  void warmStart(double step);
+  void move(const Rotation<double>& middle, const Vec<double>& velocity, const Vec<double>& spin,
             double step);
-  void warmStart(double scale);
-  bool supported() const;
+  void spendGain(double energy0);
+  [[nodiscard]] double overshoot(double step) const;
+  [[nodiscard]] bool settled();
 
   const BodyModel& body_;
   double restitution_;
   Phase phase_ = Phase::kFlight;
   KernelState<double> state_, before_;
-  Vec<double> impulse_{};
-  std::vector<double> gap_, rate_;  ///< of every hull vertex: height, m, and its rate, m/s
-  std::vector<int> candidates_;
-  ContactSolver<double> solver_;
-  std::array<ContactPoint<double>, ContactSolver<double>::kMaxPoints> last_;
+  Rotation<double> rotation_;  ///< of state_, when seen_
+  GroundWatch watch_;
+  GroundFrame now_, next_;  ///< of state_, when seen_; of the step's end
+  bool seen_ = false;
+  std::vector<std::size_t> chosen_;  ///< numbers in watch_'s list
+  Solver solver_;
+  std::array<ContactPoint<double>, Solver::kMaxPoints> last_;
+  Vec<double> impulse_{}, lastMoment_{};
   int lastCount_ = 0;
-  double lastStep_ = 0, lastPress_ = 0;
+  double lastStep_ = 0;
   double quietSince_ = -1;
   int impactsHere_ = 0, stuck_ = 0;
 };
