@@ -2,8 +2,25 @@
 #include "dynamics/body_model.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace ifa {
+
+void VertexRows::clear() {
+  x.clear();
+  y.clear();
+  z.clear();
+}
+
+void VertexRows::add(double px, double py, double pz) {
+  x.push_back(px);
+  y.push_back(py);
+  z.push_back(pz);
+}
+
+void VertexRows::fillUp() {
+  while (size() % kChunk != 0) add(x.back(), y.back(), z.back());
+}
 
 BodyModel::BodyModel(const Body& body, const SurfaceProperties& surfaceIn,
                      const KernelSettings& kernel)
@@ -15,7 +32,9 @@ BodyModel::BodyModel(const Body& body, const SurfaceProperties& surfaceIn,
     y.push_back(p.y());
     z.push_back(p.z());
     radius = std::max(radius, p.norm());
+    rows.add(p.x(), p.y(), p.z());
   }
+  rows.fillUp();
   Eigen::Vector3d moments = body.principalMoments;
   const double alike = 1e-6 * moments.maxCoeff();
   isotropic = moments[2] - moments[0] < alike;
@@ -33,6 +52,8 @@ BodyModel::BodyModel(const Body& body, const SurfaceProperties& surfaceIn,
   euler = {(inertia.y - inertia.z) / inertia.x, (inertia.z - inertia.x) / inertia.y,
            (inertia.x - inertia.y) / inertia.z};
   slop = std::max(1e-5, 1e-3 * radius);
+  hitGap = 0.3 * slop;
+  speedRoot = std::sqrt(inverseMass + radius * radius / moments.minCoeff());
 }
 
 }  // namespace ifa

@@ -22,11 +22,25 @@ struct KernelSettings {
   int impactIterations = 30;  ///< likewise for an impact
 };
 
+/// Hull vertices in rows, filled up with copies of the last one to a multiple of kChunk, so that
+/// loops over whole chunks need no tail.
+struct VertexRows {
+  static constexpr std::size_t kChunk = 4;
+
+  std::vector<double> x, y, z;  ///< principal frame, m
+
+  void clear();
+  void add(double px, double py, double pz);
+  void fillUp();
+  [[nodiscard]] std::size_t size() const { return x.size(); }
+};
+
 /// Body and surface in principal axes. Immutable once made; share it between threads.
 struct BodyModel {
   BodyModel(const Body& body, const SurfaceProperties& surface, const KernelSettings& kernel = {});
 
   std::vector<double> x, y, z;  ///< hull vertices, principal frame, m
+  VertexRows rows;              ///< the same, filled up
   double mass, inverseMass;
   Vec<double> inertia, inverseInertia;  ///< principal moments
   Vec<double> euler;                    ///< (I2 - I3) / I1 and cyclic
@@ -34,6 +48,8 @@ struct BodyModel {
   int symmetryAxis = -1;  ///< 0 or 2: the other two moments are equal; -1: they are not
   double radius;          ///< m
   double slop;            ///< gap that counts as touching, m
+  double hitGap;          ///< gap in which a vertex is hit or held, m
+  double speedRoot;       ///< speed of any point is at most this times the root of 2 E, kg^-1/2
   SurfaceProperties surface;
   KernelSettings settings;
 };

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Impulses at the touching vertices: non-penetration, restitution and Coulomb friction by block
 // Gauss-Seidel with accumulated, warm-started impulses. A point that sticks is solved exactly at
-// each visit; one that slides or parts by projection, normal first.
+// each visit; one that slides or parts by projection, normal first. Rolling and spinning friction
+// are moments limited by the normal impulse, relaxed along.
 #pragma once
 
 #include <algorithm>
@@ -45,11 +46,13 @@ struct WorldInertia {
 template <class R>
 struct ContactPoint {
   int vertex = -1;
+  R gap{}, rate{};                       ///< height, m, and its rate, m/s, where the step begins
   Vec<R> r{};                            ///< from the centre of mass, world frame, m
-  R bound{};                             ///< least normal velocity allowed afterwards, m/s
+  Vec<R> target{};                       ///< velocity of a point that sticks; z is the least, m/s
   Vec<R> impulse{};                      ///< accumulated, N s
   Vec<R> turnX{}, turnY{}, turnZ{};      ///< change of spin by a unit impulse along each axis
   R massX{}, massY{}, massZ{};           ///< effective masses along each axis, kg
+  R lessX{}, lessY{};                    ///< change of sliding by a unit normal impulse, 1/kg
   R xx{}, xy{}, xz{}, yy{}, yz{}, zz{};  ///< inverse of the 3 x 3 inverse mass at the point, kg
 };
 
@@ -61,19 +64,28 @@ class ContactSolver {
 
   int count = 0;
   ContactPoint<R> points[kMaxPoints];
+  Vec<R> moment{};      ///< of rolling (x, y) and spinning (z) friction, accumulated, N m s
+  Vec<R> spinTarget{};  ///< angular velocity that this friction tends to, rad/s
 
   /// Changes `velocity` and `spin` (world frame) so that every point's normal velocity is at least
-  /// its bound and friction opposes sliding. The points' impulses are where it starts from.
+  /// its target and friction opposes sliding, rolling and spinning. Starts from the points'
+  /// impulses and from `moment`.
   void solve(const BodyModel& body, const Rotation<R>& rotation, int sweeps, Vec<R>& velocity,
              Vec<R>& spin) {
-    prepare(body, rotation);
-    for (int k = 0; k < count; ++k) apply(body, points[k], points[k].impulse, velocity, spin);
+    const WorldInertia<R> inverse(body, rotation);
+    const bool rolls = body.surface.rollingFriction > 0 || body.surface.spinningFriction > 0;
+    for (int k = 0; k < count; ++k) {
+      prepare(body, inverse, points[k]);
+      apply(body, points[k], points[k].impulse, velocity, spin);
+    }
+    if (rolls) spin = spin + inverse * moment;
     const R small = R(3e-5) * R(body.mass);
     for (int sweep = 0; sweep < sweeps; ++sweep) {
       R change(0.0);
       for (int k = 0; k < count; ++k) {
         change = laneMax(change, relax(body, points[k], velocity, spin));
       }
+      if (rolls) brake(body, inverse, spin);
       if (!anyLane(change > small)) break;
     }
   }
@@ -86,34 +98,33 @@ class ContactSolver {
   }
 
  private:
-  void prepare(const BodyModel& body, const Rotation<R>& rotation) {
-    const WorldInertia<R> inverse(body, rotation);
+  static void prepare(const BodyModel& body, const WorldInertia<R>& inverse, ContactPoint<R>& p) {
     const R zero(0.0), inverseMass(body.inverseMass), one(1.0);
-    for (int k = 0; k < count; ++k) {
-      ContactPoint<R>& p = points[k];
-      p.turnX = inverse * Vec<R>{zero, p.r.z, zero - p.r.y};
-      p.turnY = inverse * Vec<R>{zero - p.r.z, zero, p.r.x};
-      p.turnZ = inverse * Vec<R>{p.r.y, zero - p.r.x, zero};
-      // Change of the point's velocity by unit impulses: a symmetric matrix.
-      const R axx = inverseMass + p.turnX.y * p.r.z - p.turnX.z * p.r.y;
-      const R ayy = inverseMass + p.turnY.z * p.r.x - p.turnY.x * p.r.z;
-      const R azz = inverseMass + p.turnZ.x * p.r.y - p.turnZ.y * p.r.x;
-      const R axy = p.turnX.z * p.r.x - p.turnX.x * p.r.z;
-      const R axz = p.turnX.x * p.r.y - p.turnX.y * p.r.x;
-      const R ayz = p.turnY.x * p.r.y - p.turnY.y * p.r.x;
-      p.massX = one / axx;
-      p.massY = one / ayy;
-      p.massZ = one / azz;
-      const R cxx = ayy * azz - ayz * ayz, cxy = axz * ayz - axy * azz;
-      const R cxz = axy * ayz - axz * ayy;
-      const R scale = one / (axx * cxx + axy * cxy + axz * cxz);
-      p.xx = cxx * scale;
-      p.xy = cxy * scale;
-      p.xz = cxz * scale;
-      p.yy = (axx * azz - axz * axz) * scale;
-      p.yz = (axy * axz - axx * ayz) * scale;
-      p.zz = (axx * ayy - axy * axy) * scale;
-    }
+    p.turnX = inverse * Vec<R>{zero, p.r.z, zero - p.r.y};
+    p.turnY = inverse * Vec<R>{zero - p.r.z, zero, p.r.x};
+    p.turnZ = inverse * Vec<R>{p.r.y, zero - p.r.x, zero};
+    // Change of the point's velocity by unit impulses: a symmetric matrix.
+    const R axx = inverseMass + p.turnX.y * p.r.z - p.turnX.z * p.r.y;
+    const R ayy = inverseMass + p.turnY.z * p.r.x - p.turnY.x * p.r.z;
+    const R azz = inverseMass + p.turnZ.x * p.r.y - p.turnZ.y * p.r.x;
+    const R axy = p.turnX.z * p.r.x - p.turnX.x * p.r.z;
+    const R axz = p.turnX.x * p.r.y - p.turnX.y * p.r.x;
+    const R ayz = p.turnY.x * p.r.y - p.turnY.y * p.r.x;
+    p.lessX = axz;
+    p.lessY = ayz;
+    const R xy = axx * ayy, inverseAll = one / (xy * azz);
+    p.massX = ayy * azz * inverseAll;
+    p.massY = axx * azz * inverseAll;
+    p.massZ = xy * inverseAll;
+    const R cxx = ayy * azz - ayz * ayz, cxy = axz * ayz - axy * azz;
+    const R cxz = axy * ayz - axz * ayy;
+    const R scale = one / (axx * cxx + axy * cxy + axz * cxz);
+    p.xx = cxx * scale;
+    p.xy = cxy * scale;
+    p.xz = cxz * scale;
+    p.yy = (axx * azz - axz * axz) * scale;
+    p.yz = (axy * axz - axx * ayz) * scale;
+    p.zz = (xy - axy * axy) * scale;
   }
 
   static void apply(const BodyModel& body, const ContactPoint<R>& p, const Vec<R>& impulse,
@@ -124,9 +135,9 @@ class ContactSolver {
 
   /// One Gauss-Seidel visit; returns the size of the change.
   static R relax(const BodyModel& body, ContactPoint<R>& p, Vec<R>& velocity, Vec<R>& spin) {
-    const R ux = velocity.x + spin.y * p.r.z - spin.z * p.r.y;
-    const R uy = velocity.y + spin.z * p.r.x - spin.x * p.r.z;
-    const R uz = velocity.z + spin.x * p.r.y - spin.y * p.r.x - p.bound;
+    const R ux = velocity.x + spin.y * p.r.z - spin.z * p.r.y - p.target.x;
+    const R uy = velocity.y + spin.z * p.r.x - spin.x * p.r.z - p.target.y;
+    const R uz = velocity.z + spin.x * p.r.y - spin.y * p.r.x - p.target.z;
     const Vec<R> stick = {p.impulse.x - (p.xx * ux + p.xy * uy + p.xz * uz),
                           p.impulse.y - (p.xy * ux + p.yy * uy + p.yz * uz),
                           p.impulse.z - (p.xz * ux + p.yz * uy + p.zz * uz)};
@@ -145,14 +156,30 @@ class ContactSolver {
   static Vec<R> slide(const BodyModel& body, const ContactPoint<R>& p, const Vec<R>& u) {
     const R pressed = laneMax(R(0.0), p.impulse.z - u.z * p.massZ);
     const R push = pressed - p.impulse.z;
-    const R ux = u.x + push * (p.turnZ.y * p.r.z - p.turnZ.z * p.r.y);
-    const R uy = u.y + push * (p.turnZ.z * p.r.x - p.turnZ.x * p.r.z);
+    const R ux = u.x + push * p.lessX, uy = u.y + push * p.lessY;
     const R dragX = p.impulse.x - ux * p.massX, dragY = p.impulse.y - uy * p.massY;
     const R limit = R(body.surface.friction) * pressed;
     const R size2 = dragX * dragX + dragY * dragY;
     const R scale =
         select(size2 > limit * limit, limit / laneSqrt(laneMax(size2, R(1e-300))), R(1.0));
     return {dragX * scale, dragY * scale, pressed};
+  }
+
+  /// Rolling and spinning friction: moments that stop the spin, at most the friction arm times the
+  /// normal impulse.
+  void brake(const BodyModel& body, const WorldInertia<R>& inverse, Vec<R>& spin) {
+    R press(0.0);
+    for (int k = 0; k < count; ++k) press = press + points[k].impulse.z;
+    const Vec<R> u = spin - spinTarget;
+    Vec<R> next = {moment.x - u.x / inverse.xx, moment.y - u.y / inverse.yy,
+                   moment.z - u.z / inverse.zz};
+    const R roll = press * R(body.surface.rollingFriction);
+    const R size = laneSqrt(next.x * next.x + next.y * next.y);
+    const R scale = select(size > roll, roll / laneMax(size, R(1e-300)), R(1.0));
+    const R turn = press * R(body.surface.spinningFriction);
+    next = {next.x * scale, next.y * scale, laneMax(R(0.0) - turn, laneMin(turn, next.z))};
+    spin = spin + inverse * (next - moment);
+    moment = next;
   }
 };
 

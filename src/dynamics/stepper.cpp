@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "dynamics/energy.h"
+#include "dynamics/impact_law.h"
+#include "dynamics/support.h"
 
 namespace ifa {
 
@@ -12,20 +14,29 @@ namespace {
 
 /// Impacts at one instant before the body is taken to stay on the ground for the next step.
 constexpr int kImpactsAtOnce = 6;
-/// Vertices that would hit within this time hit together, s.
-constexpr double kTogether = 1e-4;
-/// A body that hardly moves for so long is at rest even when it stands on less than three points,
-/// s.
-constexpr double kQuiet = 0.5;
+/// Vertices that would hit within this time hit together, s: an impact of a hard body lasts as
+/// long.
+constexpr double kTogether = 1.5e-4;
+/// Slower approaches of a vertex at the ground are left to the next step, m/s.
+constexpr double kLandingSpeed = 2e-3;
+/// A vertex at the ground that rises faster is not held, m/s.
+constexpr double kPartingSpeed = 0.1;
+/// One that rises no faster touches, m/s.
+constexpr double kTouchingSpeed = 5e-3;
+/// A body that hardly moves but is not supported (balanced on an edge to the last bit, or held
+/// there by rolling friction) is at rest after so long, s.
+constexpr double kBalanced = 2;
+constexpr int kMostCuts = 3;
+constexpr double kShortestStep = 1e-6;  // s
 
 }  // namespace
 
 Stepper::Stepper(const BodyModel& body)
     : body_(body),
       restitution_(body.surface.restitution),
-      gap_(body.x.size()),
-      rate_(body.x.size()) {
-  candidates_.reserve(body.x.size());
+      rotation_(Quat<double>{1, 0, 0, 0}),
+      watch_(body) {
+  chosen_.reserve(body.x.size());
 }
 
 void Stepper::start(const KernelState<double>& state) { start(state, body_.surface.restitution); }
@@ -34,8 +45,9 @@ void Stepper::start(const KernelState<double>& state, double restitution) {
   restitution_ = restitution;
   state_ = before_ = state;
   phase_ = Phase::kContact;  // contact() lifts off at once when nothing is near
+  seen_ = false;
   solver_.count = lastCount_ = impactsHere_ = stuck_ = 0;
-  lastStep_ = lastPress_ = 0;
+  lastStep_ = 0;
   quietSince_ = -1;
 }
 
@@ -55,8 +67,9 @@ Advance Stepper::fly(double limit) {
   const FlightSegment segment(body_, state_, limit - state_.time);
   const double hit = segment.firstTouch();
   lastCount_ = 0;
-  lastStep_ = lastPress_ = 0;
+  lastStep_ = 0;
   quietSince_ = -1;
+  seen_ = false;
   if (hit > segment.length()) {
     state_ = segment.at(segment.length());
     impactsHere_ = stuck_ = 0;
@@ -68,147 +81,94 @@ Advance Stepper::fly(double limit) {
   return Advance::kTouch;
 }
 
-void Stepper::measure(const Rotation<double>& rotation, const Vec<double>& velocity,
-                      const Vec<double>& w) {
-  const Vec<double> up = rotation.rows[2], turn = cross(up, w);
-  const double height = state_.position.z, rise = velocity.z;
-  const double *x = body_.x.data(), *y = body_.y.data(), *z = body_.z.data();
-  for (std::size_t i = 0; i < gap_.size(); ++i) {
-    gap_[i] = height + (x[i] * up.x + y[i] * up.y + z[i] * up.z);
-    rate_[i] = rise + (x[i] * turn.x + y[i] * turn.y + z[i] * turn.z);
-  }
+/// Measures the vertices that a step from here can bring to the ground.
+void Stepper::look() {
+  if (!seen_) rotation_ = Rotation<double>(state_.q);
+  const Vec<double>& up = rotation_.rows[2];
+  const double speed =
+      body_.speedRoot * std::sqrt(2 * kineticEnergy(body_, state_.velocity, state_.w)) +
+      kGravity * body_.settings.step;
+  const double reach = speed * (body_.settings.step + kTogether) + body_.slop;
+  const bool remade = watch_.cover(state_.position.z, up, reach);
+  if (seen_ && !remade) return;
+  watch_.measure(state_.position.z, state_.velocity.z, up, cross(up, state_.w), now_);
+  seen_ = true;
 }
 
 Advance Stepper::touch(double limit) {
-  const Rotation<double> rotation(state_.q);
-  measure(rotation, state_.velocity, state_.w);
+  look();
   if (impactsHere_ < kImpactsAtOnce) {
-    for (std::size_t i = 0; i < gap_.size(); ++i) {
-      if (gap_[i] <= body_.slop && rate_[i] < -body_.settings.bounceSpeed) return impact(rotation);
+    for (std::size_t i = 0; i < watch_.count(); ++i) {
+      if (now_.gap[i] <= body_.hitGap && now_.rate[i] < -kLandingSpeed) return impact();
     }
   }
-  return contact(rotation, limit);
+  return contact(limit);
 }
 
-void Stepper::addPoint(const Rotation<double>& rotation, std::size_t vertex) {
-  ContactPoint<double>& p = solver_.points[solver_.count++];
-  p.vertex = static_cast<int>(vertex);
-  p.r = rotation * Vec<double>{body_.x[vertex], body_.y[vertex], body_.z[vertex]};
-  p.impulse = {};
+void Stepper::gatherHits() {
+  chosen_.clear();
+  for (std::size_t i = 0; i < watch_.count(); ++i) {
+    if (now_.gap[i] <= laneMax(body_.slop, -now_.rate[i] * kTogether)) chosen_.push_back(i);
+  }
 }
 
-/// Keeps at most eight of the candidates: the lowest one, then always the one farthest from those
-/// kept, so that a body on a round base does not rock for want of support.
-void Stepper::thin(const Rotation<double>& rotation) {
-  constexpr std::size_t kMost = ContactSolver<double>::kMaxPoints;
-  std::vector<Vec<double>> place(candidates_.size());
-  std::vector<double> far(candidates_.size(), 1e9);
-  for (std::size_t c = 0; c < candidates_.size(); ++c) {
-    const auto i = static_cast<std::size_t>(candidates_[c]);
-    place[c] = rotation * Vec<double>{body_.x[i], body_.y[i], body_.z[i]};
+/// Vertices at the ground, and those that sink to it within the step without a bounce to come.
+void Stepper::gatherHeld(double step) {
+  chosen_.clear();
+  const double fall = 0.5 * kGravity * step;
+  for (std::size_t i = 0; i < watch_.count(); ++i) {
+    const double gap = now_.gap[i], rate = now_.rate[i];
+    const bool held = gap <= body_.hitGap
+                          ? rate < kPartingSpeed
+                          : gap + (rate - fall) * step < 0 && rate * step >= -2 * gap &&
+                                rate >= -body_.settings.bounceSpeed;
+    if (held) chosen_.push_back(i);
   }
-  std::size_t next = 0;
-  for (std::size_t c = 1; c < candidates_.size(); ++c) {
-    if (gap_[static_cast<std::size_t>(candidates_[c])] <
-        gap_[static_cast<std::size_t>(candidates_[next])]) {
-      next = c;
-    }
-  }
-  std::vector<int> kept;
-  while (kept.size() < kMost) {
-    kept.push_back(candidates_[next]);
-    for (std::size_t c = 0; c < candidates_.size(); ++c) {
-      const double dx = place[c].x - place[next].x, dy = place[c].y - place[next].y;
-      far[c] = std::min(far[c], dx * dx + dy * dy);
-    }
-    next = static_cast<std::size_t>(std::max_element(far.begin(), far.end()) - far.begin());
-  }
-  candidates_ = kept;
 }
 
-/// Makes the contact points: vertices that touch (`atOnce`), or would within `reach` seconds.
-void Stepper::gather(const Rotation<double>& rotation, double reach, bool atOnce) {
-  candidates_.clear();
-  const double fall = kGravity * reach;
-  for (std::size_t i = 0; i < gap_.size(); ++i) {
-    const bool near = gap_[i] <= (atOnce ? laneMax(body_.slop, -rate_[i] * kTogether) : body_.slop);
-    const bool coming = gap_[i] + (rate_[i] - fall) * reach < 0;
-    if (atOnce ? near : coming && (near || rate_[i] >= -body_.settings.bounceSpeed)) {
-      candidates_.push_back(static_cast<int>(i));
-    }
+/// Makes contact points of the chosen vertices, of at most eight of them.
+void Stepper::addPoints() {
+  if (chosen_.size() > Solver::kMaxPoints) {
+    thinBySpread(watch_, now_, rotation_, Solver::kMaxPoints, chosen_);
   }
   solver_.count = 0;
-  if (candidates_.size() > ContactSolver<double>::kMaxPoints) thin(rotation);
-  for (const int i : candidates_) addPoint(rotation, static_cast<std::size_t>(i));
+  for (const std::size_t i : chosen_) {
+    ContactPoint<double>& p = solver_.points[solver_.count++];
+    p.vertex = watch_.vertex(i);
+    p.gap = now_.gap[i];
+    p.rate = now_.rate[i];
+    p.r = rotation_ * watch_.place(i);
+    p.impulse = {};
+  }
 }
 
-/// Newton restitution at every vertex that hits; where friction would let that gain energy, as much
-/// of it as gains none: impulses between those of a plastic impact, which never gains, and the full
-/// ones.
-Advance Stepper::impact(const Rotation<double>& rotation) {
-  gather(rotation, 0, true);
+Advance Stepper::impact() {
+  gatherHits();
+  addPoints();
   before_ = state_;
-  const Vec<double> spin0 = rotation * state_.w;
-  const auto solve = [&](double restitution, Vec<double>& velocity, Vec<double>& spin) {
-    for (int k = 0; k < solver_.count; ++k) {
-      ContactPoint<double>& p = solver_.points[k];
-      const double rate = rate_[static_cast<std::size_t>(p.vertex)];
-      p.bound = rate < -body_.settings.bounceSpeed ? -restitution * rate : 0;
-      p.impulse = {};
-    }
-    velocity = state_.velocity;
-    spin = spin0;
-    solver_.solve(body_, rotation, body_.settings.impactIterations, velocity, spin);
-    return solver_.total();
-  };
-  Vec<double> velocity, spin;
-  impulse_ = solve(restitution_, velocity, spin);
-  const double energy0 = kineticEnergy(body_, state_.velocity, state_.w);
-  Vec<double> w = rotation.transposed(spin);
-  if (kineticEnergy(body_, velocity, w) > energy0) {
-    Vec<double> plasticVelocity, plasticSpin;
-    const Vec<double> plastic = solve(0, plasticVelocity, plasticSpin);
-    const Vec<double> plasticW = rotation.transposed(plasticSpin);
-    const Vec<double> dv = velocity - plasticVelocity, dw = w - plasticW;
-    const double a = kineticEnergy(body_, dv, dw),
-                 c = kineticEnergy(body_, plasticVelocity, plasticW) - energy0;
-    const double b = body_.mass * dot(plasticVelocity, dv) + body_.inertia.x * plasticW.x * dw.x +
-                     body_.inertia.y * plasticW.y * dw.y + body_.inertia.z * plasticW.z * dw.z;
-    // Energy along the way is a s^2 + b s + c, with c <= 0 and the whole above 0 at s = 1.
-    const double s =
-        laneMax(0, laneMin(1, (std::sqrt(laneMax(0, b * b - 4 * a * c)) - b) / (2 * a)));
-    velocity = plasticVelocity + dv * s;
-    w = plasticW + dw * s;
-    impulse_ = plastic + (impulse_ - plastic) * s;
-  }
-  state_.velocity = velocity;
-  lastPress_ = impulse_.z;
-  Vec<double> turned = rotation * w;
-  rollingFriction(1, rotation, turned);
-  state_.w = rotation.transposed(turned);
+  const Impact after =
+      solveImpact(body_, rotation_, restitution_, state_.velocity, state_.w, solver_);
+  state_.velocity = after.velocity;
+  state_.w = after.w;
+  impulse_ = after.impulse;
+  const Vec<double>& up = rotation_.rows[2];
+  watch_.measure(state_.position.z, state_.velocity.z, up, cross(up, state_.w), now_);
   ++impactsHere_;
   lastCount_ = 0;
-  lastPress_ = 0;
   quietSince_ = -1;
   return Advance::kImpact;
 }
 
-/// Longest step in which the body turns little and no free vertex hits at speed before the step's
-/// end.
-double Stepper::chooseStep(double limit) const {
-  const KernelSettings& set = body_.settings;
-  double step = laneMin(set.step, limit - state_.time);
-  const double rate = std::sqrt(dot(state_.w, state_.w));
-  if (rate * step > set.stepAngle) step = set.stepAngle / rate;
-  for (std::size_t i = 0; i < gap_.size(); ++i) {
-    if (gap_[i] <= body_.slop || rate_[i] >= -set.bounceSpeed) continue;
-    const double reach = (gap_[i] - 0.25 * body_.slop) / (kGravity * step - rate_[i]);
-    if (reach < step) step = laneMax(reach, 1e-6);
-  }
-  return step;
+Advance Stepper::lift() {
+  phase_ = ++stuck_ > 200 ? Phase::kRest : Phase::kFlight;
+  return Advance::kLift;
 }
 
-void Stepper::warmStart(double scale) {
+void Stepper::warmStart(double step) {
+  solver_.moment = {};
+  if (lastCount_ == 0 || lastStep_ <= 0) return;
+  const double scale = step / lastStep_;
+  solver_.moment = lastMoment_ * scale;
   for (int k = 0; k < solver_.count; ++k) {
     for (int j = 0; j < lastCount_; ++j) {
       const auto& old = last_[static_cast<std::size_t>(j)];
@@ -217,137 +177,132 @@ void Stepper::warmStart(double scale) {
   }
 }
 
-/// Seconds until a vertex that is no contact point would be under the ground, or a value over
-/// `step`.
-double Stepper::overshoot(const Rotation<double>& rotation, const Vec<double>& velocity,
-                          const Vec<double>& spin, double step) const {
-  const Vec<double> up = rotation.rows[2], turn = cross(up, rotation.transposed(spin));
-  const double *x = body_.x.data(), *y = body_.y.data(), *z = body_.z.data();
-  const double deepest = -0.5 * body_.slop;
-  double least = 2 * step;
-  for (std::size_t i = 0; i < gap_.size(); ++i) {
-    const double rate = velocity.z + (x[i] * turn.x + y[i] * turn.y + z[i] * turn.z);
-    if (gap_[i] + rate * step >= deepest) continue;
-    bool held = false;
-    for (int k = 0; k < solver_.count; ++k) {
-      held = held || solver_.points[k].vertex == static_cast<int>(i);
+/// Turns the arms to the middle of the step and says what velocity the points shall have there: on
+/// the way from the one they begin with to none at the end, or one that brings them down to the
+/// ground by then.
+void Stepper::aim(double step, const Rotation<double>& middle) {
+  const Vec<double> spin = rotation_ * state_.w;
+  for (int k = 0; k < solver_.count; ++k) {
+    ContactPoint<double>& p = solver_.points[k];
+    const Vec<double> v = state_.velocity + cross(spin, p.r);
+    double sink = 0;
+    if (p.gap > body_.hitGap) {
+      sink = -p.gap / step;
+    } else if (p.gap > -body_.hitGap) {
+      sink = laneMin(0.5 * p.rate, 0);
     }
-    if (!held) least = laneMin(least, laneMax(gap_[i], 0) / -rate);
+    p.target = {0.5 * v.x, 0.5 * v.y, sink};
+    p.r = middle * rotation_.transposed(p.r);
   }
-  return least;
+  solver_.spinTarget = spin * 0.5;
 }
 
-/// Coulomb-like moments at the contact: they brake rolling about a horizontal axis and spinning
-/// about the vertical one, by at most the friction arm times the normal impulse of the step before.
-void Stepper::rollingFriction(double step, const Rotation<double>& rotation,
-                              Vec<double>& spin) const {
-  const double press = lastPress_ * step;
-  if (press <= 0) return;
-  const WorldInertia<double> inverse(body_, rotation);
-  const auto brake = [&](const Vec<double>& axis, double rate, double arm) {
-    const Vec<double> turn = inverse * axis;
-    const double moment = laneMin(arm * press, rate / dot(axis, turn));
-    spin = spin - turn * moment;
-  };
-  const double roll = std::sqrt(spin.x * spin.x + spin.y * spin.y);
-  if (roll > 0 && body_.surface.rollingFriction > 0) {
-    brake({spin.x / roll, spin.y / roll, 0}, roll, body_.surface.rollingFriction);
-  }
-  if (spin.z != 0 && body_.surface.spinningFriction > 0) {
-    brake({0, 0, spin.z > 0 ? 1.0 : -1.0}, std::fabs(spin.z), body_.surface.spinningFriction);
-  }
-}
-
-/// Takes the step: drift with the new velocities; the angular momentum stays through the turn.
-void Stepper::move(const Rotation<double>& rotation, const Vec<double>& velocity,
+/// Goes on for `step` with the velocities of its middle; those of its end lie as far beyond.
+void Stepper::move(const Rotation<double>& middle, const Vec<double>& velocity,
                    const Vec<double>& spin, double step) {
-  const Vec<double> w = rotation.transposed(spin);
+  const Vec<double> w = middle.transposed(spin);
   state_.time += step;
   state_.position = state_.position + velocity * step;
-  state_.velocity = velocity;
-  state_.q = normalised(state_.q + timesPure(state_.q, w) * (0.5 * step));
-  state_.w = w;
-  if (!body_.isotropic) {
-    const Vec<double> momentum = angularMomentum(body_, rotation, w);
-    state_.w = spinOfMomentum(body_, Rotation<double>(state_.q), momentum);
+  state_.velocity = velocity * 2.0 - state_.velocity;
+  if (body_.isotropic) {
+    state_.q = normalised(state_.q + timesPure(state_.q, w) * (0.5 * step));
+    const Vec<double> end = spin * 2.0 - rotation_ * state_.w;
+    rotation_ = Rotation<double>(state_.q);
+    state_.w = rotation_.transposed(end);
+    return;
   }
+  const Vec<double> momentum =
+      angularMomentum(body_, middle, w) * 2.0 - angularMomentum(body_, rotation_, state_.w);
+  state_.q = normalised(state_.q + timesPure(state_.q, w) * (0.5 * step));
+  rotation_ = Rotation<double>(state_.q);
+  state_.w = spinOfMomentum(body_, rotation_, momentum);
 }
 
-Advance Stepper::contact(const Rotation<double>& rotation, double limit) {
-  before_ = state_;
-  double step = chooseStep(limit);
-  Vec<double> velocity, spin;
-  for (int attempt = 0;; ++attempt) {
-    gather(rotation, step, false);
-    if (solver_.count == 0) {
-      phase_ = Phase::kFlight;
-      if (++stuck_ > 200) phase_ = Phase::kRest;
-      return Advance::kLift;
-    }
-    const double fall = kGravity * step;
-    for (int k = 0; k < solver_.count; ++k) {
-      ContactPoint<double>& p = solver_.points[k];
-      p.bound = -laneMax(gap_[static_cast<std::size_t>(p.vertex)], 0) / step;
-    }
-    warmStart(lastStep_ > 0 ? step / lastStep_ : 0);
-    velocity = state_.velocity;
-    velocity.z -= fall;
-    spin = rotation * state_.w;
-    rollingFriction(step, rotation, spin);
-    solver_.solve(body_, rotation, body_.settings.iterations, velocity, spin);
-    const double earlier = overshoot(rotation, velocity, spin, step);
-    if (earlier > step || attempt == 2) break;
-    step = laneMax(earlier, 1e-6);
-  }
-  impulse_ = solver_.total();
-  if (impulse_.z <= 0 && stuck_ < 100) {
-    phase_ = Phase::kFlight;
-    ++stuck_;
-    return Advance::kLift;
-  }
-  const double energy0 = totalEnergy(body_, state_);
-  move(rotation, velocity, spin, step);
-  // The step itself may gain a little where the turn is finite; nothing may come of that.
+/// A step may gain a little, of the third order in its turn or where sweeps have not settled:
+/// nothing may come of that. What a body without speed cannot spend, it spends by height.
+void Stepper::spendGain(double energy0) {
   const double gain = totalEnergy(body_, state_) - energy0;
+  if (gain <= 0) return;
   const double moving = kineticEnergy(body_, state_.velocity, state_.w);
-  if (gain > 0 && moving > 0) {
-    const double scale = moving > gain ? std::sqrt((moving - gain) / moving) : 0;
-    state_.velocity = state_.velocity * scale;
-    state_.w = state_.w * scale;
+  const double scale = moving > gain ? std::sqrt((moving - gain) / moving) : 0;
+  state_.velocity = state_.velocity * scale;
+  state_.w = state_.w * scale;
+  if (gain > moving) state_.position.z -= (gain - moving) / (body_.mass * kGravity);
+}
+
+/// Seconds until a vertex that was not held is at the ground, where it ends under it; else `step`.
+double Stepper::overshoot(double step) const {
+  double first = 1;
+  for (std::size_t i = 0; i < watch_.count(); ++i) {
+    if (next_.gap[i] >= -0.5 * body_.hitGap || now_.gap[i] <= body_.hitGap) continue;
+    bool held = false;
+    for (int k = 0; k < solver_.count; ++k) {
+      held = held || solver_.points[k].vertex == watch_.vertex(i);
+    }
+    if (held) continue;
+    const HeightCubic<double> height(now_.gap[i], now_.rate[i], next_.gap[i], next_.rate[i], step);
+    first = laneMin(first, height.firstTouch());
   }
-  for (int k = 0; k < solver_.count; ++k) last_[static_cast<std::size_t>(k)] = solver_.points[k];
+  return first * step;
+}
+
+Advance Stepper::contact(double limit) {
+  before_ = state_;
+  const Rotation<double> rotation0 = rotation_;
+  const double rate = std::sqrt(dot(state_.w, state_.w));
+  double step = laneMin(body_.settings.step, limit - state_.time);
+  if (rate * step > body_.settings.stepAngle) step = body_.settings.stepAngle / rate;
+  for (int cuts = 0;; ++cuts) {
+    gatherHeld(step);
+    if (chosen_.empty()) return lift();
+    addPoints();
+    const Rotation<double> middle(
+        normalised(state_.q + timesPure(state_.q, state_.w) * (0.25 * step)));
+    aim(step, middle);
+    warmStart(step);
+    Vec<double> velocity = state_.velocity;
+    velocity.z -= 0.5 * kGravity * step;
+    const Vec<double> momentum = angularMomentum(body_, rotation_, state_.w);
+    Vec<double> spin = middle * spinOfMomentum(body_, middle, momentum);
+    solver_.solve(body_, middle, body_.settings.iterations, velocity, spin);
+    impulse_ = solver_.total() * 2.0;
+    if (impulse_.z <= 0 && stuck_ < 100) return lift();
+    move(middle, velocity, spin, step);
+    spendGain(totalEnergy(body_, before_));
+    const Vec<double>& up = rotation_.rows[2];
+    watch_.measure(state_.position.z, state_.velocity.z, up, cross(up, state_.w), next_);
+    const double earlier = overshoot(step);
+    if (earlier >= step || cuts == kMostCuts) break;
+    state_ = before_;
+    rotation_ = rotation0;
+    step = laneMax(earlier, kShortestStep);
+  }
+  std::swap(now_, next_);
+  std::copy(solver_.points, solver_.points + solver_.count, last_.begin());
   lastCount_ = solver_.count;
+  lastMoment_ = solver_.moment;
   lastStep_ = step;
-  lastPress_ = impulse_.z / step;
   impactsHere_ = stuck_ = 0;
-  const double slow = 0.5 * body_.settings.restSpeed * body_.settings.restSpeed;
-  const double perMass = kineticEnergy(body_, state_.velocity, state_.w) / body_.mass;
-  if (perMass < slow) {
-    if (quietSince_ < 0) quietSince_ = state_.time;
-    if (supported() || state_.time - quietSince_ > kQuiet) phase_ = Phase::kRest;
-  } else {
-    quietSince_ = -1;
-  }
+  if (settled()) phase_ = Phase::kRest;
   return Advance::kContact;
 }
 
-/// The centre of mass is above the polygon of contact points: seen from it, points lie on both
-/// sides of the line to every point.
-bool Stepper::supported() const {
-  if (solver_.count < 3) return false;
-  for (int i = 0; i < solver_.count; ++i) {
-    const Vec<double>& a = solver_.points[i].r;
-    double left = 0, right = 0;
-    for (int j = 0; j < solver_.count; ++j) {
-      const Vec<double>& b = solver_.points[j].r;
-      const double side = a.x * b.y - a.y * b.x;
-      left = laneMax(left, side);
-      right = laneMin(right, side);
-    }
-    const double margin = 1e-3 * body_.radius * body_.radius;
-    if (left < margin || right > -margin) return false;
+bool Stepper::settled() {
+  const double slow = 0.5 * body_.settings.restSpeed * body_.settings.restSpeed;
+  if (kineticEnergy(body_, state_.velocity, state_.w) >= slow * body_.mass) {
+    quietSince_ = -1;
+    return false;
   }
-  return true;
+  if (quietSince_ < 0) quietSince_ = state_.time;
+  return isSupported(watch_, now_, rotation_, body_) || state_.time - quietSince_ > kBalanced;
+}
+
+bool Stepper::touching() const {
+  if (phase_ == Phase::kFlight) return false;
+  for (std::size_t i = 0; i < watch_.count(); ++i) {
+    if (now_.gap[i] <= body_.slop && now_.rate[i] <= kTouchingSpeed) return true;
+  }
+  return false;
 }
 
 ContactStep Stepper::contactStep() const {
