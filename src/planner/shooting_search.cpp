@@ -75,14 +75,19 @@ void ShootingSearch::run(const std::function<bool()>& stop,
 }
 
 void ShootingSearch::plantRoots(const std::function<bool()>& stop) {
-  const auto count = static_cast<std::size_t>(problem_.settings.firstContacts * width_);
-  const std::size_t batches = (count + kBatch - 1) / kBatch;
+  const auto& set = problem_.settings;
+  const auto fresh = static_cast<std::size_t>(set.firstContacts * width_);
+  const bool few = static_cast<int>(levels_.size()) <= set.fewContacts;
+  const auto late = few ? static_cast<std::size_t>(set.lateContacts * width_) : 0;
+  const std::uint64_t seed = problem_.request.settings.seed + (pass_ << 32);
+  const std::size_t count = fresh + late, batches = (count + kBatch - 1) / kBatch;
   std::vector<std::vector<ShootingNode>> made(batches);
   parallelFor(batches, [&](std::size_t batch) {
     if (stop()) return;
     ShootingWorker worker(problem_);
     for (std::size_t i = batch * kBatch; i < std::min(count, (batch + 1) * kBatch); ++i) {
-      worker.plant(static_cast<unsigned>(i), problem_.request.settings.seed + (pass_ << 32));
+      const auto root = static_cast<unsigned>(i);
+      i < fresh ? worker.plant(root, seed) : worker.plantLate(root, seed);
     }
     made[batch] = std::move(worker.children);
   });

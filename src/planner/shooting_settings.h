@@ -6,6 +6,8 @@ namespace ifa {
 
 struct ShootingSettings {
   int firstContacts = 3000;  ///< initial states tried
+  int fewContacts = 4;       ///< signatures of so few contacts also begin ...
+  int lateContacts = 2000;   ///< ... late in so many drops
   int beam = 300;            ///< partial motions kept from one contact to the next
   int children = 8;          ///< changes of velocity tried on each
   double mostEffort = 6;     ///< a small beam gets more children, by up to this factor

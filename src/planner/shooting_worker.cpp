@@ -6,6 +6,7 @@
 
 #include "base/portable_math.h"
 #include "dynamics/energy.h"
+#include "dynamics/simulator.h"
 #include "planner/silent_search.h"
 #include "sampler/initial_state.h"
 
@@ -15,6 +16,7 @@ namespace {
 
 /// A touch that comes within this of the time asked for is that touch, s.
 constexpr double kTouchPrecision = 1e-7;
+constexpr double kLongestDrop = 10;  // s
 /// Ways to end one event that are followed up.
 constexpr std::size_t kMostEndings = 3;
 
@@ -35,6 +37,21 @@ void ShootingWorker::plant(unsigned root, std::uint64_t seed) {
 
 /// Silence is simulated for so long; later contacts are all just too late.
 double ShootingWorker::silentHorizon(double duration) { return 1.3 * duration + 0.01; }
+
+/// From the end of a whole drop: the event after which as many follow as the signature has. A sound
+/// of few contacts is rarely a hard throw, and one of a single contact never is.
+void ShootingWorker::plantLate(unsigned root, std::uint64_t seed) {
+  const RigidState start = sampleInitialState(*problem_.request.body, seed, root);
+  const DropResult drop = simulateDrop(problem_.model, start, kLongestDrop);
+  EventRecorder recorder(problem_.recorder);
+  for (const ContactStep& step : drop.steps) recorder.add(step);
+  const std::vector<ContactEvent> events = recorder.finish(drop.atRest);
+  if (events.size() < problem_.targets.size()) return;
+  ShootingNode node;
+  node.root = root;
+  arrive(node, node, {}, events[events.size() - problem_.targets.size()].before,
+         problem_.model.surface.restitution, -1e300);
+}
 
 /// Contacts that are to be heard apart stay a merge gap apart, but for rounding.
 double ShootingWorker::shortestPassage() const { return problem_.recorder.mergeGap - 1e-6; }

@@ -16,6 +16,8 @@ class ShootingWorker {
 
   /// Motions of one contact, from sampled initial state number `root`.
   void plant(unsigned root, std::uint64_t seed);
+  /// The same from a contact late in the drop that begins there.
+  void plantLate(unsigned root, std::uint64_t seed);
   /// Motions from `node` to target `level` (later than the node's own).
   /// @param effort  scales the number of children
   /// @param bound  children whose log score cannot get above are not simulated
