@@ -82,7 +82,7 @@ TEST(EnergyOutlookTest, MoreEnergyDeviatesMore) {
     EXPECT_GT(deviation, last);
     last = deviation;
   }
-  EXPECT_GT(last, 3);  // enough for a fall from 0.8 m
+  EXPECT_GT(last, 2);  // enough for a fall from 0.8 m
   EXPECT_TRUE(std::isfinite(outlook.deviation(0.5 * rest, features)));
 }
 

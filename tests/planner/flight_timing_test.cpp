@@ -115,24 +115,27 @@ TEST_P(FlightTiming, WithoutAWishBendsNearlyLeast) {
   EXPECT_LE(beaten, asked / 5) << "of " << asked;
 }
 
-TEST_P(FlightTiming, IsCooledWhereItWouldGainEnergy) {
+// A cap on energy is aimed at; whether it was reached is for the caller to look at.
+TEST_P(FlightTiming, ACapOnEnergyOnlyCools) {
   int hot = 0, cooled = 0;
   for (const ContactEvent& event : events_) {
     const PlausibleRegion region = regionOf(event, model_);
     const Coordinates wish = randomWish(random_, 0.5);
     const auto free = timeFlight(model_, event.after, region, wish, 0.12, kAnyEnergy);
     if (!free) continue;
-    const double most = 0.97 * free->energy;
-    ++hot;
-    const auto capped = timeFlight(model_, event.after, region, wish, 0.12, most);
-    if (capped && capped->energy <= most) ++cooled;
-    // A cap that does not bind changes nothing.
     const auto same = timeFlight(model_, event.after, region, wish, 0.12, 1.01 * free->energy);
     ASSERT_TRUE(same.has_value());
-    EXPECT_TRUE(test::sameBits(same->departure, free->departure));
+    EXPECT_TRUE(test::sameBits(same->departure, free->departure)) << "the cap does not bind";
+    const auto capped = timeFlight(model_, event.after, region, wish, 0.12, 0.97 * free->energy);
+    if (!capped) continue;
+    ++hot;
+    if (capped->energy < free->energy) ++cooled;
+    ReferenceFlight reference(ground_.body, capped->departure);
+    reference.advance(0.12);
+    EXPECT_NEAR(reference.clearance(), 0, 2e-7) << "it still takes the time asked for";
   }
   EXPECT_GT(hot, 40);
-  EXPECT_GT(cooled, hot / 2);
+  EXPECT_GT(cooled, hot * 9 / 10);
 }
 
 TEST_P(FlightTiming, FirstTouchIsThatOfTheReference) {
