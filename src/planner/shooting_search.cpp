@@ -142,19 +142,27 @@ void ShootingSearch::keepBest(std::vector<ShootingNode>& candidates) const {
   std::map<int, int> ofBin;
   std::vector<ShootingNode> kept;
   const auto most = static_cast<std::size_t>(set.beam * width_);
+  // Where few parents, or few first contacts, are left, the beam is still filled from them.
   std::set<std::pair<int, int>> parents;
-  for (const ShootingNode& node : candidates) parents.insert({node.parentLevel, node.parent});
-  const int perParent =
-      std::max(set.perParent,
-               static_cast<int>(1.5 * set.beam * width_ /
-                                static_cast<double>(std::max<std::size_t>(1, parents.size()))));
+  std::set<unsigned> roots;
+  for (const ShootingNode& node : candidates) {
+    parents.insert({node.parentLevel, node.parent});
+    roots.insert(node.root);
+  }
+  const auto share = [&](int quota, std::size_t groups) {
+    const double even =
+        1.5 * set.beam * width_ / static_cast<double>(std::max<std::size_t>(1, groups));
+    return std::max(quota, static_cast<int>(even));
+  };
+  const int perParent = share(set.perParent, parents.size());
+  const int perRoot = share(set.perRoot, roots.size());
   for (const ShootingNode& node : candidates) {
     if (kept.size() >= most) break;
     const double above = std::max(node.energyAfter - problem_.outlook.restEnergy(), 1e-12);
     const int bin = static_cast<int>(portableLog(above) / set.energyBin + 1000);
     int& parent = ofParent[{node.parentLevel, node.parent}];
     int &root = ofRoot[node.root], &energy = ofBin[bin];
-    const bool full = (node.parent >= 0 && parent >= perParent) || root >= set.perRoot ||
+    const bool full = (node.parent >= 0 && parent >= perParent) || root >= perRoot ||
                       energy >= static_cast<int>(set.perEnergyBin * width_);
     if (full) continue;
     ++parent;
