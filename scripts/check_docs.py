@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Checks that every relative link in the Markdown files leads to a file, and that every page that
-the code's comments name (docs/PAGE.md) is there."""
+comments in the code name is there."""
 import pathlib
 import re
 import subprocess
