@@ -130,8 +130,10 @@ class Builder {
     const double begin = startOf(last);
     const double limit =
         stepper_.state().time + (request_.signature.terminal ? kLongestSettling : kLongestBouncing);
-    writer_.run(stepper_, begin, limit, true, [](const Stepper&, Advance) { return false; });
-    if (stepper_.state().time >= limit) return;
+    // What bounces on may be heard; only what settles is silent, and only then is rest part of it.
+    const bool settles = plan_.contacts[last].event.terminal;
+    writer_.run(stepper_, begin, limit, settles, [](const Stepper&, Advance) { return false; });
+    if (!settles || stepper_.state().time >= limit) return;
     const double rest = begin + stepper_.state().time;
     for (int i = 0; i <= static_cast<int>(kHold * 240); ++i) {
       writer_.sampleAtRest(stepper_.state(), rest + i / 240.0);

@@ -82,12 +82,7 @@ class Timing {
     const double height = heightOf(model_, lowest, now.up());
     const double miss = drop_ + (after_.velocity.z() + linear.z()) * duration_ + height;
     if (std::abs(miss) < 1e-9) return false;
-    const Vec<double> r =
-        now.rotation * Vec<double>{model_.x[lowest], model_.y[lowest], model_.z[lowest]};
-    const Vec<double> lever = aimed(vec(spin) * duration_, {r.y * duration_, -r.x * duration_, 0});
-    Coordinates slope;
-    slope.head<3>() = duration_ * region_.linearAxes().row(2).transpose();
-    slope.tail<3>() = region_.angularAxes().transpose() * Vector3d(lever.x, lever.y, lever.z);
+    const Coordinates slope = timingSlope(spin, now, lowest);
     wish -= slope * (miss / slope.squaredNorm());
     return true;
   }
@@ -120,11 +115,24 @@ class Timing {
     slope.head<3>() = model_.mass * region_.linearAxes().transpose() * state.velocity;
     slope.tail<3>() =
         region_.angularAxes().transpose() * Vector3d(momentum.x, momentum.y, momentum.z);
+    const TurnedUp now = turned(state.angularVelocity);
+    const Coordinates timing =
+        timingSlope(state.angularVelocity, now, lowestVertex(model_, now.up()));
+    slope -= timing * (timing.dot(slope) / timing.squaredNorm());
     return region_.coordinates(flight.velocityChange, flight.angularVelocityChange) -
            slope * (excess / slope.squaredNorm());
   }
 
  private:
+  Coordinates timingSlope(const Vector3d& spin, const TurnedUp& now, std::size_t lowest) const {
+    const Vec<double> r =
+        now.rotation * Vec<double>{model_.x[lowest], model_.y[lowest], model_.z[lowest]};
+    const Vec<double> lever = aimed(vec(spin) * duration_, {r.y * duration_, -r.x * duration_, 0});
+    Coordinates slope;
+    slope.head<3>() = duration_ * region_.linearAxes().row(2).transpose();
+    slope.tail<3>() = region_.angularAxes().transpose() * Vector3d(lever.x, lever.y, lever.z);
+    return slope;
+  }
   [[nodiscard]] TurnedUp turned(const Vector3d& spin) const {
     return turn(model_, start_.q, rotation_.transposed(vec(spin)), duration_);
   }

@@ -92,9 +92,8 @@ std::string reasonOf(const ShootingDeaths& d, double gap, bool terminal) {
   }
   if (d.bent > d.earlier) {
     return fmt::format(
-        "a gap of {:.0f} ms asks for an implausible bounce; a higher or lower restitution, or a "
-        "missed "
-        "or false mark near it?",
+        "a gap of {:.0f} ms asks for an implausible bounce; another restitution, or a missed or "
+        "false mark near it?",
         gap * 1e3);
   }
   return fmt::format(
@@ -108,7 +107,7 @@ std::string failureOf(const ShootingProblem& problem, const ShootingSearch& sear
   const auto& events = problem.request.signature.events;
   if (farthest == nullptr) {
     return events.size() == 1 && problem.request.signature.terminal
-               ? "contact 1 at 0.000 s: no motion comes to rest in one contact as short as this"
+               ? "contact 1 at 0.000 s: no motion comes to rest in one contact like this"
                : "contact 1 at 0.000 s: no initial state gives an audible contact";
   }
   const auto level = static_cast<std::size_t>(farthest->level);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tunables of the shooting planner; docs/planner.md says what each is worth.
+// Tunables of the shooting planner (docs/planner.md).
 #pragma once
 
 namespace ifa {
@@ -15,9 +15,10 @@ struct ShootingSettings {
   int lastFactor = 6;        ///< ... by this factor: few motions come to rest exactly there
   int perParent = 3;         ///< of the kept ones, at most so many have one parent, ...
   int perRoot = 30;          ///< ... one first contact, ...
-  int perEnergyBin =
-      50;  ///< ... and energies within one bin of log(energy), so that the beam keeps
-  double energyBin = 0.3;      ///< motions that can still do different things
+  /// ... and energies within one bin of log(energy), so that the beam keeps motions that can still
+  /// differ.
+  int perEnergyBin = 50;
+  double energyBin = 0.3;      ///< width of a bin, in log(energy)
   double spread = 0.45;        ///< standard deviation of a change, in units of the plausible region
   double outlookWeight = 0.5;  ///< of the energy outlook beyond one standard deviation
   double hopeless = 8;  ///< log units that a motion without a way to the next contact loses in rank
@@ -25,8 +26,9 @@ struct ShootingSettings {
   int silentProbes = 16;  ///< changes tried where the next contact comes after silent contact
   int silentTries = 3;    ///< pairs of them, one too early and one too late, that are followed up
   int silentBeam = 150;   ///< best motions on which that is tried
-  double silentReach =
-      2.5;  ///< and only where the unchanged motion misses by less (30 % of the gap is 1)
+  /// Where the motion flies there too, silence is tried only if unchanged it misses by less; 10 %
+  /// of the gap is 1.
+  double silentReach = 2.5;
   double restitutionRange = 0.2;  ///< relative, inside continuous and last events
   double dropPenalty = 6;         ///< log units for an event of weight 1 that was dropped
   int passes = 6;                 ///< searches with other seeds and wider beams, at most

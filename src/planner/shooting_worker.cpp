@@ -96,6 +96,7 @@ void ShootingWorker::expand(const ShootingNode& node, int index, int level, doub
   // The least change that flies there is known; where even that bends too much, none will do.
   const bool flies = node.flightCost < -logVelocity(1.2 * settings().bendCap);
   const int more = level >= n - set.lastContacts ? set.lastFactor : 1;
+  if (!flies) ++deaths.bent;
   const int count = flies ? static_cast<int>(set.children * more * effort) : 0;
   for (int i = 0; i < count; ++i) {
     Coordinates wish = Coordinates::Zero();
@@ -107,12 +108,14 @@ void ShootingWorker::expand(const ShootingNode& node, int index, int level, doub
     const double restitution = variedRestitution(level, i, random);
     shoot(node, child, region, wish, duration, restitution, bound);
   }
-  if (flies && level + 1 < n && index < set.silentBeam && stuckAfter(level)) {
+  // A long silence takes long to simulate, and is as rare.
+  const double silentBeam = set.silentBeam * std::min(1.0, 0.3 / duration);
+  if (flies && level + 1 < n && index < silentBeam && stuckAfter(level)) {
     shootAhead(node, child, region, duration, random, bound);
   }
   // Where nothing flies there, silence is the only way, however far off it is now: a body that tips
   // over an edge takes any time, for a very small change.
-  if (node.silentOff > (flies ? set.silentReach : kNever) || index >= set.silentBeam) return;
+  if (node.silentOff > (flies ? set.silentReach : kNever) || index >= silentBeam) return;
   const int probes = static_cast<int>((flies ? 0.5 : 1) * set.silentProbes);
   shootSilently(node, child, region, duration, probes, random, bound);
 }
@@ -168,7 +171,7 @@ void ShootingWorker::shootSilently(const ShootingNode& node, const ShootingNode&
     next.reset();
     if (!energyAllows(node.energyBefore, totalEnergy(problem_.model, start),
                       settings().energyGain)) {
-      return SilentProbe{y, kNever, {}};
+      return SilentProbe{y, kNever, Eigen::Vector3d::Zero()};
     }
     next = simulation_.nextAudible(start, horizon);
     return silentProbe(y, next, horizon, duration);
@@ -202,7 +205,7 @@ void ShootingWorker::shootAhead(const ShootingNode& node, const ShootingNode& ch
   std::optional<TimedFlight> flight;
   std::optional<Touch> touch;
   const auto probe = [&](const Coordinates& y) {
-    const SilentProbe never{y, kNever, {}};
+    const SilentProbe never{y, kNever, Eigen::Vector3d::Zero()};
     flight = timeFlight(problem_.model, node.event.after, region, y, duration, mostEnergy);
     if (!flight || flight->bend > settings().bendCap || flight->energy > mostEnergy) return never;
     touch = firstTouch(problem_.model, flight->departure, duration + 1e-3);
