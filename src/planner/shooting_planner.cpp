@@ -194,6 +194,10 @@ Result<std::vector<Plan>> ShootingPlanner::plan(const PlanRequest& request,
       if (farthest != nullptr) plan = planOf(problem, search.path(*farthest));
       plan.failure = failureOf(problem, search, farthest);
       partial.push_back(std::move(plan));
+      // Other seeds meet the second contact no better; what can be done there does not depend on
+      // luck.
+      if (pass > 0 && (farthest == nullptr || (farthest->level == 0 && problem.targets.size() > 1)))
+        break;
     }
     if (takes.enough() && (pass > 0 || takes.plans()[0].score >= settings_.goodScore)) break;
   }
