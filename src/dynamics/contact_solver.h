@@ -16,8 +16,9 @@ namespace ifa {
 template <class R>
 struct WorldInertia {
   R xx, xy, xz, yy, yz, zz;
+  bool isotropic;
 
-  WorldInertia(const BodyModel& body, const Rotation<R>& rotation) {
+  WorldInertia(const BodyModel& body, const Rotation<R>& rotation) : isotropic(body.isotropic) {
     const R a(body.inverseInertia.x);
     if (body.isotropic) {
       xx = yy = zz = a;
@@ -37,6 +38,7 @@ struct WorldInertia {
     zz = entry(2, 2);
   }
   [[nodiscard]] Vec<R> operator*(const Vec<R>& v) const {
+    if (isotropic) return v * xx;
     return {xx * v.x + xy * v.y + xz * v.z, xy * v.x + yy * v.y + yz * v.z,
             xz * v.x + yz * v.y + zz * v.z};
   }
@@ -69,27 +71,31 @@ class ContactSolver {
 
   /// Changes `velocity` and `spin` (world frame) so that every point's normal velocity is at least
   /// its target and friction opposes sliding, rolling and spinning. Starts from the points'
-  /// impulses and from `moment`.
-  void solve(const BodyModel& body, const Rotation<R>& rotation, int sweeps, Vec<R>& velocity,
-             Vec<R>& spin) {
-    const WorldInertia<R> inverse(body, rotation);
+  /// impulses and from `moment`; leaves impulses that are `precision` (N s) from settled.
+  void solve(const BodyModel& body, const WorldInertia<R>& inverse, int sweeps, R precision,
+             Vec<R>& velocity, Vec<R>& spin) {
     const bool rolls = body.surface.rollingFriction > 0 || body.surface.spinningFriction > 0;
     for (int k = 0; k < count; ++k) {
       prepare(body, inverse, points[k]);
       apply(body, points[k], points[k].impulse, velocity, spin);
     }
     if (rolls) spin = spin + inverse * moment;
-    const R small = R(3e-5) * R(body.mass);
     for (int sweep = 0; sweep < sweeps; ++sweep) {
       R change(0.0);
       for (int k = 0; k < count; ++k) {
         change = laneMax(change, relax(body, points[k], velocity, spin));
       }
       if (rolls) brake(body, inverse, spin);
-      if (!anyLane(change > small)) break;
+      if (!anyLane(change > precision)) break;
     }
   }
 
+  /// Sum of all angular impulses about the centre of mass, world frame, N m s.
+  [[nodiscard]] Vec<R> totalTurn() const {
+    Vec<R> sum = moment;
+    for (int k = 0; k < count; ++k) sum = sum + cross(points[k].r, points[k].impulse);
+    return sum;
+  }
   /// Sum of all impulses, world frame, N s.
   [[nodiscard]] Vec<R> total() const {
     Vec<R> sum{};
@@ -112,13 +118,15 @@ class ContactSolver {
     const R ayz = p.turnY.x * p.r.y - p.turnY.y * p.r.x;
     p.lessX = axz;
     p.lessY = ayz;
-    const R xy = axx * ayy, inverseAll = one / (xy * azz);
-    p.massX = ayy * azz * inverseAll;
-    p.massY = axx * azz * inverseAll;
-    p.massZ = xy * inverseAll;
-    const R cxx = ayy * azz - ayz * ayz, cxy = axz * ayz - axy * azz;
+    const R xy = axx * ayy, yz = ayy * azz;
+    const R cxx = yz - ayz * ayz, cxy = axz * ayz - axy * azz;
     const R cxz = axy * ayz - axz * ayy;
-    const R scale = one / (axx * cxx + axy * cxy + axz * cxz);
+    const R determinant = axx * cxx + axy * cxy + axz * cxz, all = xy * azz;
+    const R inverseAll = one / (determinant * all), scale = all * inverseAll;
+    const R share = determinant * inverseAll;
+    p.massX = yz * share;
+    p.massY = axx * azz * share;
+    p.massZ = xy * share;
     p.xx = cxx * scale;
     p.xy = cxy * scale;
     p.xz = cxz * scale;

@@ -54,7 +54,7 @@ inline double HeightCubic<double>::firstTouch() const {
     const double rate = slope(s);
     double next = rate < 0 ? s - height / rate : low;
     if (!(next > low && next < high)) next = 0.5 * (low + high);
-    if (std::fabs(next - s) < 1e-9) return next;
+    if (std::fabs(next - s) < 1e-7) return next;
     s = next;
   }
   return s;
@@ -63,54 +63,30 @@ inline double HeightCubic<double>::firstTouch() const {
 /// Whether the rotation in flight has a closed form, good for any time.
 inline bool closedForm(const BodyModel& body) { return body.isotropic || body.symmetryAxis >= 0; }
 
-/// One segment of a flight: positions and rates of the two ends of it.
+/// One segment of a flight, with its first touch. Not to be shared between threads: it remembers
+/// the state that was asked for last.
 class FlightSegment {
  public:
   FlightSegment(const BodyModel& body, const KernelState<double>& start, double longest)
       : body_(body), start_(start), rotation_(body, {start.q, start.w}) {
-    const double rate = std::sqrt(dot(start.w, start.w));
+    spin2_ = dot(start.w, start.w);
     const double angle = body.isotropic ? body.settings.isotropicAngle : body.settings.segmentAngle;
-    length_ = angle / laneMax(rate, 1.0);
+    length_ = angle / laneMax(laneSqrt(spin2_), 1.0);
+    if (closedForm(body)) length_ = laneMax(length_, timeAbove());
     if (longest < length_) length_ = longest;
+    lastTime_ = length_;
+    last_ = computed(length_);
   }
 
   [[nodiscard]] double length() const { return length_; }
 
   /// State `t` seconds after the segment's start.
   [[nodiscard]] KernelState<double> at(double t) const {
-    const Spin<double> spin = rotation_.at(t);
-    KernelState<double> s = start_;
-    s.time += t;
-    s.position = s.position + s.velocity * t;
-    s.position.z -= 0.5 * kGravity * t * t;
-    s.velocity.z -= kGravity * t;
-    s.q = spin.q;
-    s.w = spin.w;
-    return s;
+    return t == lastTime_ ? last_ : computed(t);
   }
 
   /// Seconds from the start to the first touch; larger than length() when nothing touches.
-  [[nodiscard]] double firstTouch() const {
-    const KernelState<double> end = at(length_);
-    // A parabola is lowest at its ends.
-    if (laneMin(start_.position.z, end.position.z) > body_.radius) return 2 * length_;
-    const Heights a(start_), b(end);
-    const double spin2 = dot(start_.w, start_.w);
-    const double dip = 0.125 * length_ * length_ * (kGravity + 2 * body_.radius * spin2);
-    double first = 2;
-    std::size_t lowest = 0;
-    for (std::size_t i = 0; i < body_.x.size(); ++i) {
-      const Vec<double> p = {body_.x[i], body_.y[i], body_.z[i]};
-      const double h0 = a.height(p), h1 = b.height(p);
-      if (laneMin(h0, h1) > dip) continue;
-      const double s = HeightCubic<double>(h0, a.rate(p), h1, b.rate(p), length_).firstTouch();
-      if (s < first) {
-        first = s;
-        lowest = i;
-      }
-    }
-    return first > 1 ? 2 * length_ : refined(first * length_, lowest);
-  }
+  [[nodiscard]] double firstTouch() const;
 
  private:
   /// Heights of body points and their rates in one state.
@@ -125,23 +101,28 @@ class FlightSegment {
     Vec<double> up, upRate;
   };
 
-  [[nodiscard]] double refined(double t, std::size_t vertex) const {
-    const Vec<double> p = {body_.x[vertex], body_.y[vertex], body_.z[vertex]};
-    for (int i = 0; i < 2; ++i) {
-      const Heights heights(at(t));
-      const double rate = heights.rate(p);
-      if (rate > -1e-4) break;
-      const double next = t - heights.height(p) / rate;
-      if (!(next > 0 && next < length_)) break;
-      t = next;
-    }
-    return t;
+  /// A vertex that comes near the ground, and its heights at the segment's ends.
+  struct Candidate {
+    std::size_t vertex;
+    double h0, h1;
+  };
+  static constexpr std::size_t kMostCandidates = 128;
+
+  [[nodiscard]] KernelState<double> computed(double t) const;
+  [[nodiscard]] double timeAbove() const;
+  [[nodiscard]] double refined(double t, std::size_t vertex) const;
+  std::size_t findLow(const Heights& a, const Heights& b, double dip, std::size_t& next,
+                      Candidate* found) const;
+  [[nodiscard]] Vec<double> place(std::size_t i) const {
+    return {body_.rows.x[i], body_.rows.y[i], body_.rows.z[i]};
   }
 
   const BodyModel& body_;
   KernelState<double> start_;
   FreeRotation<double> rotation_;
-  double length_;
+  double spin2_, length_;
+  mutable double lastTime_;
+  mutable KernelState<double> last_;
 };
 
 }  // namespace ifa

@@ -54,7 +54,7 @@ Vec<R> spinOfMomentum(const BodyModel& body, const Rotation<R>& rotation, const 
 template <class R>
 class FreeRotation {
  public:
-  static constexpr int kOrder = 8;
+  static constexpr int kOrder = 10;
 
   FreeRotation(const BodyModel& body, const Spin<R>& start) : body_(body), start_(start) {
     if (body.isotropic) return;

@@ -1,25 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dynamics/ground_watch.h"
 
+#include <cmath>
+
 namespace ifa {
 
 namespace {
 
 /// Bodies of fewer vertices are always looked at whole.
 constexpr std::size_t kFew = 24;
-/// How far beyond what must be seen a new list reaches, in that distance and in radii of the body.
-constexpr double kFarther = 4, kFartherRadii = 0.03;
-
-/// base + x a.x + y a.y + z a.z for each of a row of vertices.
-void project(const VertexRows& rows, double base, const Vec<double>& a, double* out) {
-  const double *x = rows.x.data(), *y = rows.y.data(), *z = rows.z.data();
-  const std::size_t size = rows.size();
-  for (std::size_t i = 0; i < size; i += VertexRows::kChunk) {
-    for (std::size_t k = 0; k < VertexRows::kChunk; ++k) {
-      out[i + k] = base + (x[i + k] * a.x + y[i + k] * a.y + z[i + k] * a.z);
-    }
-  }
-}
+/// How far beyond what must be seen a new list reaches, in that distance and in radii of the body,
+/// and what kinetic energy it is good for, in that of the moment.
+constexpr double kFarther = 4, kFartherRadii = 0.02, kFaster = 1.5;
 
 }  // namespace
 
@@ -29,19 +21,26 @@ GroundWatch::GroundWatch(const BodyModel& body) : body_(body), all_(body.x.size(
   for (std::size_t i = 0; i < body.x.size(); ++i) index_.push_back(static_cast<int>(i));
 }
 
-bool GroundWatch::cover(double height, const Vec<double>& up, double reach) {
+bool GroundWatch::cover(double height, const Vec<double>& up, double kinetic) {
   if (all_) return false;
   const Vec<double> turned = up - listedUp_;
-  const double sunk = body_.radius * laneSqrt(dot(turned, turned)) - (height - listedHeight_);
-  if (margin_ - sunk > reach) return false;
-  margin_ = kFarther * reach + kFartherRadii * body_.radius;
-  list(height, up);
+  const double left = margin_ - reach_ + (height - listedHeight_);
+  if (kinetic <= mostKinetic_ && left > 0 &&
+      body_.radius * body_.radius * dot(turned, turned) < left * left) {
+    return false;
+  }
+  list(height, up, kinetic);
   return true;
 }
 
-void GroundWatch::list(double height, const Vec<double>& up) {
+void GroundWatch::list(double height, const Vec<double>& up, double kinetic) {
+  const double step = body_.settings.step + kTogether;
   listedHeight_ = height;
   listedUp_ = up;
+  mostKinetic_ = kFaster * kinetic;
+  const double speed = body_.speedRoot * std::sqrt(2 * mostKinetic_) + kGravity * step;
+  reach_ = speed * step + body_.slop;
+  margin_ = kFarther * reach_ + kFartherRadii * body_.radius;
   rows_.clear();
   index_.clear();
   const VertexRows& all = body_.rows;
@@ -56,10 +55,25 @@ void GroundWatch::list(double height, const Vec<double>& up) {
 
 void GroundWatch::measure(double height, double rise, const Vec<double>& up,
                           const Vec<double>& turn, GroundFrame& frame) const {
-  frame.gap.resize(rows_.size());
-  frame.rate.resize(rows_.size());
-  project(rows_, height, up, frame.gap.data());
-  project(rows_, rise, turn, frame.rate.data());
+  const std::size_t size = rows_.size();
+  if (frame.gap.size() < size) {
+    frame.gap.resize(size);
+    frame.rate.resize(size);
+  }
+  const double *x = rows_.x.data(), *y = rows_.y.data(), *z = rows_.z.data();
+  double *gap = frame.gap.data(), *rate = frame.rate.data();
+  for (std::size_t i = 0; i < size; i += VertexRows::kChunk) {
+    double g[VertexRows::kChunk], r[VertexRows::kChunk];
+    for (std::size_t k = 0; k < VertexRows::kChunk; ++k) {
+      const double px = x[i + k], py = y[i + k], pz = z[i + k];
+      g[k] = height + (px * up.x + py * up.y + pz * up.z);
+      r[k] = rise + (px * turn.x + py * turn.y + pz * turn.z);
+    }
+    for (std::size_t k = 0; k < VertexRows::kChunk; ++k) {
+      gap[i + k] = g[k];
+      rate[i + k] = r[k];
+    }
+  }
 }
 
 }  // namespace ifa

@@ -12,9 +12,13 @@
 
 namespace ifa {
 
+/// Vertices that would hit within this time hit together, s: an impact of a hard body lasts as
+/// long.
+inline constexpr double kTogether = 1.5e-4;
+
 /// Gaps and their rates of the listed vertices in one state.
 struct GroundFrame {
-  std::vector<double> gap, rate;  ///< m, m/s; filled up as the list's rows are
+  std::vector<double> gap, rate;  ///< m, m/s; of at least the list's length
 };
 
 /// Not thread safe. The model must outlive it.
@@ -22,9 +26,10 @@ class GroundWatch {
  public:
   explicit GroundWatch(const BodyModel& body);
 
-  /// Makes sure that every vertex under `reach` (m) is listed while the body is as in `height`
-  /// (of its centre, m) and `up` (the world's z axis, body frame). True when the list was remade.
-  bool cover(double height, const Vec<double>& up, double reach);
+  /// Makes sure that every vertex that can be at the ground by the end of a step is listed, while
+  /// the body is as in `height` (of its centre, m) and `up` (the world's z axis, body frame) and
+  /// has kinetic energy `kinetic` (J). True when the list was remade.
+  bool cover(double height, const Vec<double>& up, double kinetic);
   /// Gaps and rates of the listed vertices. `turn` is cross(up, w).
   void measure(double height, double rise, const Vec<double>& up, const Vec<double>& turn,
                GroundFrame& frame) const;
@@ -37,14 +42,16 @@ class GroundWatch {
   }
 
  private:
-  void list(double height, const Vec<double>& up);
+  void list(double height, const Vec<double>& up, double kinetic);
 
   const BodyModel& body_;
   VertexRows rows_;
   std::vector<int> index_;
   double listedHeight_ = 0;
   Vec<double> listedUp_{};
-  double margin_ = -1;  ///< what is not listed was higher than this, m
+  double mostKinetic_ = -1;  ///< J, for which reach_ is enough
+  double reach_ = 0;         ///< m, how far a step can bring a vertex down
+  double margin_ = 0;        ///< what is not listed was higher than this, m
   bool all_;
 };
 

@@ -9,6 +9,9 @@ namespace ifa {
 
 namespace {
 
+/// Impulses are solved to this change of speed, m/s.
+constexpr double kPrecision = 3e-4;
+
 Impact solved(const BodyModel& body, const Rotation<double>& rotation, double restitution,
               const Vec<double>& velocity, const Vec<double>& w, ContactSolver<double>& solver) {
   for (int k = 0; k < solver.count; ++k) {
@@ -18,7 +21,8 @@ Impact solved(const BodyModel& body, const Rotation<double>& rotation, double re
   }
   solver.moment = solver.spinTarget = {};
   Impact impact{velocity, rotation * w, {}};
-  solver.solve(body, rotation, body.settings.impactIterations, impact.velocity, impact.w);
+  solver.solve(body, WorldInertia<double>(body, rotation), body.settings.impactIterations,
+               kPrecision * body.mass, impact.velocity, impact.w);
   impact.w = rotation.transposed(impact.w);
   impact.impulse = solver.total();
   return impact;

@@ -80,6 +80,12 @@ template <class R>
 Quat<R> normalised(const Quat<R>& q) {
   return q * (R(1.0) / laneSqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z));
 }
+/// The same for a quaternion whose squared length is within about 1e-3 of 1, to 1e-15 or so.
+template <class R>
+Quat<R> renormalised(const Quat<R>& q) {
+  const R d = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - R(1.0);
+  return q * (R(1.0) - d * (R(0.5) - d * (R(0.375) - d * (R(0.3125) - d * R(0.2734375)))));
+}
 template <class R>
 Quat<R> select(const LaneMask<R>& mask, const Quat<R>& yes, const Quat<R>& no) {
   return {select(mask, yes.w, no.w), select(mask, yes.x, no.x), select(mask, yes.y, no.y),

@@ -14,11 +14,8 @@ namespace {
 
 /// Impacts at one instant before the body is taken to stay on the ground for the next step.
 constexpr int kImpactsAtOnce = 6;
-/// Vertices that would hit within this time hit together, s: an impact of a hard body lasts as
-/// long.
-constexpr double kTogether = 1.5e-4;
 /// Slower approaches of a vertex at the ground are left to the next step, m/s.
-constexpr double kLandingSpeed = 2e-3;
+constexpr double kLandingSpeed = 5e-3;
 /// A vertex at the ground that rises faster is not held, m/s.
 constexpr double kPartingSpeed = 0.1;
 /// One that rises no faster touches, m/s.
@@ -26,6 +23,8 @@ constexpr double kTouchingSpeed = 5e-3;
 /// A body that hardly moves but is not supported (balanced on an edge to the last bit, or held
 /// there by rolling friction) is at rest after so long, s.
 constexpr double kBalanced = 2;
+/// Impulses of a step are solved to this change of speed, m/s.
+constexpr double kPrecision = 3e-5;
 constexpr int kMostCuts = 3;
 constexpr double kShortestStep = 1e-6;  // s
 
@@ -83,13 +82,12 @@ Advance Stepper::fly(double limit) {
 
 /// Measures the vertices that a step from here can bring to the ground.
 void Stepper::look() {
-  if (!seen_) rotation_ = Rotation<double>(state_.q);
+  if (!seen_) {
+    rotation_ = Rotation<double>(state_.q);
+    kinetic_ = kineticEnergy(body_, state_.velocity, state_.w);
+  }
   const Vec<double>& up = rotation_.rows[2];
-  const double speed =
-      body_.speedRoot * std::sqrt(2 * kineticEnergy(body_, state_.velocity, state_.w)) +
-      kGravity * body_.settings.step;
-  const double reach = speed * (body_.settings.step + kTogether) + body_.slop;
-  const bool remade = watch_.cover(state_.position.z, up, reach);
+  const bool remade = watch_.cover(state_.position.z, up, kinetic_);
   if (seen_ && !remade) return;
   watch_.measure(state_.position.z, state_.velocity.z, up, cross(up, state_.w), now_);
   seen_ = true;
@@ -116,8 +114,11 @@ void Stepper::gatherHits() {
 void Stepper::gatherHeld(double step) {
   chosen_.clear();
   const double fall = 0.5 * kGravity * step;
+  const double far = body_.hitGap + (body_.settings.bounceSpeed + fall) * step;
   for (std::size_t i = 0; i < watch_.count(); ++i) {
-    const double gap = now_.gap[i], rate = now_.rate[i];
+    const double gap = now_.gap[i];
+    if (gap > far) continue;
+    const double rate = now_.rate[i];
     const bool held = gap <= body_.hitGap
                           ? rate < kPartingSpeed
                           : gap + (rate - fall) * step < 0 && rate * step >= -2 * gap &&
@@ -153,6 +154,7 @@ Advance Stepper::impact() {
   impulse_ = after.impulse;
   const Vec<double>& up = rotation_.rows[2];
   watch_.measure(state_.position.z, state_.velocity.z, up, cross(up, state_.w), now_);
+  kinetic_ = kineticEnergy(body_, state_.velocity, state_.w);
   ++impactsHere_;
   lastCount_ = 0;
   quietSince_ = -1;
@@ -192,28 +194,19 @@ void Stepper::aim(double step, const Rotation<double>& middle) {
       sink = laneMin(0.5 * p.rate, 0);
     }
     p.target = {0.5 * v.x, 0.5 * v.y, sink};
-    p.r = middle * rotation_.transposed(p.r);
+    p.r = middle * watch_.place(chosen_[static_cast<std::size_t>(k)]);
   }
   solver_.spinTarget = spin * 0.5;
 }
 
-/// Goes on for `step` with the velocities of its middle; those of its end lie as far beyond.
-void Stepper::move(const Rotation<double>& middle, const Vec<double>& velocity,
-                   const Vec<double>& spin, double step) {
-  const Vec<double> w = middle.transposed(spin);
+/// Goes on for `step` with the velocities of its middle (`spin` in the body frame); those of its
+/// end lie as far beyond, and its angular momentum is `momentum`.
+void Stepper::move(double step, const Vec<double>& velocity, const Vec<double>& spin,
+                   const Vec<double>& momentum) {
   state_.time += step;
   state_.position = state_.position + velocity * step;
   state_.velocity = velocity * 2.0 - state_.velocity;
-  if (body_.isotropic) {
-    state_.q = normalised(state_.q + timesPure(state_.q, w) * (0.5 * step));
-    const Vec<double> end = spin * 2.0 - rotation_ * state_.w;
-    rotation_ = Rotation<double>(state_.q);
-    state_.w = rotation_.transposed(end);
-    return;
-  }
-  const Vec<double> momentum =
-      angularMomentum(body_, middle, w) * 2.0 - angularMomentum(body_, rotation_, state_.w);
-  state_.q = normalised(state_.q + timesPure(state_.q, w) * (0.5 * step));
+  state_.q = renormalised(state_.q + timesPure(state_.q, spin) * (0.5 * step));
   rotation_ = Rotation<double>(state_.q);
   state_.w = spinOfMomentum(body_, rotation_, momentum);
 }
@@ -221,10 +214,12 @@ void Stepper::move(const Rotation<double>& middle, const Vec<double>& velocity,
 /// A step may gain a little, of the third order in its turn or where sweeps have not settled:
 /// nothing may come of that. What a body without speed cannot spend, it spends by height.
 void Stepper::spendGain(double energy0) {
-  const double gain = totalEnergy(body_, state_) - energy0;
-  if (gain <= 0) return;
   const double moving = kineticEnergy(body_, state_.velocity, state_.w);
-  const double scale = moving > gain ? std::sqrt((moving - gain) / moving) : 0;
+  const double gain = moving + body_.mass * kGravity * state_.position.z - energy0;
+  kinetic_ = moving;
+  if (gain <= 0) return;
+  kinetic_ = laneMax(moving - gain, 0);
+  const double scale = moving > gain ? std::sqrt(kinetic_ / moving) : 0;
   state_.velocity = state_.velocity * scale;
   state_.w = state_.w * scale;
   if (gain > moving) state_.position.z -= (gain - moving) / (body_.mass * kGravity);
@@ -246,50 +241,64 @@ double Stepper::overshoot(double step) const {
   return first * step;
 }
 
+/// Solves a step by the implicit midpoint rule and takes it; false when nothing pushes.
+bool Stepper::solveStep(double step) {
+  const Quat<double> halfway = state_.q + timesPure(state_.q, state_.w) * (0.25 * step);
+  const Rotation<double> middle(renormalised(halfway));
+  aim(step, middle);
+  warmStart(step);
+  const WorldInertia<double> inverse(body_, middle);
+  const Vec<double> momentum = angularMomentum(body_, rotation_, state_.w);
+  Vec<double> velocity = state_.velocity, spin = inverse * momentum;
+  velocity.z -= 0.5 * kGravity * step;
+  solver_.solve(body_, inverse, body_.settings.iterations, kPrecision * body_.mass, velocity, spin);
+  impulse_ = solver_.total() * 2.0;
+  if (impulse_.z <= 0 && stuck_ < 100) return false;
+  move(step, velocity, middle.transposed(spin), momentum + solver_.totalTurn() * 2.0);
+  return true;
+}
+
+/// What the next step starts from.
+void Stepper::keep(double step) {
+  std::swap(now_, next_);
+  for (int k = 0; k < solver_.count; ++k) {
+    last_[static_cast<std::size_t>(k)] = {solver_.points[k].vertex, solver_.points[k].impulse};
+  }
+  lastCount_ = solver_.count;
+  lastMoment_ = solver_.moment;
+  lastStep_ = step;
+  impactsHere_ = stuck_ = 0;
+}
+
 Advance Stepper::contact(double limit) {
   before_ = state_;
-  const Rotation<double> rotation0 = rotation_;
-  const double rate = std::sqrt(dot(state_.w, state_.w));
+  const double energy0 = kinetic_ + body_.mass * kGravity * state_.position.z;
+  const double spin2 = dot(state_.w, state_.w), turn = body_.settings.stepAngle;
   double step = laneMin(body_.settings.step, limit - state_.time);
-  if (rate * step > body_.settings.stepAngle) step = body_.settings.stepAngle / rate;
+  if (spin2 * step * step > turn * turn) step = turn / std::sqrt(spin2);
   for (int cuts = 0;; ++cuts) {
     gatherHeld(step);
     if (chosen_.empty()) return lift();
     addPoints();
-    const Rotation<double> middle(
-        normalised(state_.q + timesPure(state_.q, state_.w) * (0.25 * step)));
-    aim(step, middle);
-    warmStart(step);
-    Vec<double> velocity = state_.velocity;
-    velocity.z -= 0.5 * kGravity * step;
-    const Vec<double> momentum = angularMomentum(body_, rotation_, state_.w);
-    Vec<double> spin = middle * spinOfMomentum(body_, middle, momentum);
-    solver_.solve(body_, middle, body_.settings.iterations, velocity, spin);
-    impulse_ = solver_.total() * 2.0;
-    if (impulse_.z <= 0 && stuck_ < 100) return lift();
-    move(middle, velocity, spin, step);
-    spendGain(totalEnergy(body_, before_));
+    if (!solveStep(step)) return lift();
+    spendGain(energy0);
     const Vec<double>& up = rotation_.rows[2];
     watch_.measure(state_.position.z, state_.velocity.z, up, cross(up, state_.w), next_);
     const double earlier = overshoot(step);
     if (earlier >= step || cuts == kMostCuts) break;
     state_ = before_;
-    rotation_ = rotation0;
+    rotation_ = Rotation<double>(state_.q);
+    kinetic_ = kineticEnergy(body_, state_.velocity, state_.w);
     step = laneMax(earlier, kShortestStep);
   }
-  std::swap(now_, next_);
-  std::copy(solver_.points, solver_.points + solver_.count, last_.begin());
-  lastCount_ = solver_.count;
-  lastMoment_ = solver_.moment;
-  lastStep_ = step;
-  impactsHere_ = stuck_ = 0;
+  keep(step);
   if (settled()) phase_ = Phase::kRest;
   return Advance::kContact;
 }
 
 bool Stepper::settled() {
   const double slow = 0.5 * body_.settings.restSpeed * body_.settings.restSpeed;
-  if (kineticEnergy(body_, state_.velocity, state_.w) >= slow * body_.mass) {
+  if (kinetic_ >= slow * body_.mass) {
     quietSince_ = -1;
     return false;
   }

@@ -63,9 +63,11 @@ class Stepper {
   void addPoints();
   void aim(double step, const Rotation<double>& middle);
   void warmStart(double step);
-  void move(const Rotation<double>& middle, const Vec<double>& velocity, const Vec<double>& spin,
-            double step);
+  bool solveStep(double step);
+  void move(double step, const Vec<double>& velocity, const Vec<double>& spin,
+            const Vec<double>& momentum);
   void spendGain(double energy0);
+  void keep(double step);
   [[nodiscard]] double overshoot(double step) const;
   [[nodiscard]] bool settled();
 
@@ -79,8 +81,13 @@ class Stepper {
   bool seen_ = false;
   std::vector<std::size_t> chosen_;  ///< numbers in watch_'s list
   Solver solver_;
-  std::array<ContactPoint<double>, Solver::kMaxPoints> last_;
+  struct HeldVertex {
+    int vertex;
+    Vec<double> impulse;
+  };
+  std::array<HeldVertex, Solver::kMaxPoints> last_;  ///< points of the step before
   Vec<double> impulse_{}, lastMoment_{};
+  double kinetic_ = 0;  ///< J, of state_, when seen_
   int lastCount_ = 0;
   double lastStep_ = 0;
   double quietSince_ = -1;
