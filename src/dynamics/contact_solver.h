@@ -105,10 +105,12 @@ class ContactSolver {
 
  private:
   static void prepare(const BodyModel& body, const WorldInertia<R>& inverse, ContactPoint<R>& p) {
-    const R zero(0.0), inverseMass(body.inverseMass), one(1.0);
-    p.turnX = inverse * Vec<R>{zero, p.r.z, zero - p.r.y};
-    p.turnY = inverse * Vec<R>{zero - p.r.z, zero, p.r.x};
-    p.turnZ = inverse * Vec<R>{p.r.y, zero - p.r.x, zero};
+    const R inverseMass(body.inverseMass), one(1.0);
+    const Vec<R> a = {inverse.xx, inverse.xy, inverse.xz}, b = {inverse.xy, inverse.yy, inverse.yz};
+    const Vec<R> c = {inverse.xz, inverse.yz, inverse.zz};
+    p.turnX = b * p.r.z - c * p.r.y;
+    p.turnY = c * p.r.x - a * p.r.z;
+    p.turnZ = a * p.r.y - b * p.r.x;
     // Change of the point's velocity by unit impulses: a symmetric matrix.
     const R axx = inverseMass + p.turnX.y * p.r.z - p.turnX.z * p.r.y;
     const R ayy = inverseMass + p.turnY.z * p.r.x - p.turnY.x * p.r.z;
