@@ -11,7 +11,10 @@ namespace {
 constexpr std::size_t kFew = 24;
 /// How far beyond what must be seen a new list reaches, in that distance and in radii of the body,
 /// and what kinetic energy it is good for, in that of the moment.
-constexpr double kFarther = 4, kFartherRadii = 0.02, kFaster = 1.5;
+constexpr double kFarther = 3, kFartherRadii = 0.01, kFaster = 1.5;
+/// A list made for so many times the kinetic energy is too long to keep; slower bodies than kSlow
+/// (m/s) are not told apart.
+constexpr double kSlower = 8, kSlow = 0.05;
 
 }  // namespace
 
@@ -23,9 +26,10 @@ GroundWatch::GroundWatch(const BodyModel& body) : body_(body), all_(body.x.size(
 
 bool GroundWatch::cover(double height, const Vec<double>& up, double kinetic) {
   if (all_) return false;
+  kinetic = laneMax(kinetic, 0.5 * body_.mass * kSlow * kSlow);
   const Vec<double> turned = up - listedUp_;
   const double left = margin_ - reach_ + (height - listedHeight_);
-  if (kinetic <= mostKinetic_ && left > 0 &&
+  if (kinetic <= mostKinetic_ && kinetic * kSlower >= mostKinetic_ && left > 0 &&
       body_.radius * body_.radius * dot(turned, turned) < left * left) {
     return false;
   }
