@@ -18,6 +18,8 @@ constexpr double kLinearSize = 0.4, kAngularSize = 0.2;
 constexpr double kSmallestChange = 0.05;
 // Digits by which a stated bend may be smaller than the one found here.
 constexpr double kRounding = 1e-6;
+// Within these a step of no duration is the listed change and not an impact, m/s and rad/s.
+constexpr double kSameVelocity = 1e-9, kSameSpin = 1e-6;
 
 /// Squared length of `change` in units of the region around `reference`.
 double bendSquared(const Vector3d& change, const Vector3d& reference, double size, double degrees,
@@ -30,31 +32,56 @@ double bendSquared(const Vector3d& change, const Vector3d& reference, double siz
          std::pow(across / (semiAxis * std::tan(degrees * kDegree)), 2);
 }
 
+/// A change of velocity, m/s and rad/s, world frame.
+struct Change {
+  Vector3d linear, angular;
+};
+
 /// First and last sample of contact `index`'s event; null where there is no such event.
 struct EventEnds {
   const MotionSample* first = nullptr;
   const MotionSample* last = nullptr;
 };
 
-EventEnds endsOf(const Evidence& all, std::size_t index) {
+/// The change may press the body down again in the same instant: the event's last sample is the one
+/// right after the change, where that is seen.
+EventEnds endsOf(const Evidence& all, std::size_t index, const Change& change) {
+  const double leaving = all.retiming(index + 1);
   EventEnds ends;
+  bool changed = false;
   for (const Step& step : all.steps) {
-    if (step.kind != StepKind::kEvent || step.contact != index) continue;
-    if (ends.first == nullptr) ends.first = &all.sample(step.from);
-    ends.last = &all.sample(step.from + 1);
+    if (step.kind != StepKind::kEvent || step.contact != index || changed) continue;
+    const MotionSample &a = all.sample(step.from), &b = all.sample(step.from + 1);
+    if (ends.first == nullptr) ends.first = &a;
+    ends.last = &b;
+    const Vector3d linear = leaving * b.velocity - a.velocity - change.linear;
+    const Vector3d angular = leaving * b.angularVelocity - a.angularVelocity - change.angular;
+    changed = step.duration <= 0 && linear.norm() < kSameVelocity && angular.norm() < kSameSpin;
   }
   return ends;
 }
 
+/// The body's orientation where contact `index` ends; it turns by nothing within an instant.
+Eigen::Quaterniond orientationAtEnd(const Evidence& all, std::size_t index) {
+  Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
+  for (const Step& step : all.steps) {
+    if (step.kind == StepKind::kEvent && step.contact == index) {
+      q = all.sample(step.from + 1).orientation;
+    }
+  }
+  return q;
+}
+
 /// Bend of the change that the file says was made where contact `index` ends.
 double bendAfter(const Evidence& all, std::size_t index) {
-  const EventEnds ends = endsOf(all, index);
-  if (ends.first == nullptr) return 0;
   const MotionContact& next = all.contact(index + 1);
   const Eigen::Matrix3d inverse = all.body.inertia.inverse();
-  const Eigen::Quaterniond& q = ends.last->orientation;
-  const Vector3d linear = next.impulseChange / all.mass;
-  const Vector3d angular = q * (inverse * (q.conjugate() * next.angularChange));
+  const Eigen::Quaterniond q = orientationAtEnd(all, index);
+  const Change change{next.impulseChange / all.mass,
+                      q * (inverse * (q.conjugate() * next.angularChange))};
+  const EventEnds ends = endsOf(all, index, change);
+  if (ends.first == nullptr) return 0;
+  const auto& [linear, angular] = change;
   const double arriving = all.retiming(index), leaving = all.retiming(index + 1);
   const Vector3d linearByContact =
       leaving * ends.last->velocity - linear - arriving * ends.first->velocity;
