@@ -8,8 +8,9 @@ namespace ifa {
 
 namespace {
 
-/// A touch is found when the vertex is as near to the ground as this share of BodyModel::hitGap.
-constexpr double kOnGround = 0.02;
+/// A touch is found when the vertex is as near to the ground as this, m: the planner asks for its
+/// time to 1e-7 s.
+constexpr double kOnGround = 1e-11;
 
 }  // namespace
 
@@ -93,7 +94,7 @@ double FlightSegment::refined(double t, std::size_t vertex) const {
     last_ = computed(t);
     const Heights heights(last_);
     const double height = heights.height(p), rate = heights.rate(p);
-    if (rate > -1e-4 || std::fabs(height) < kOnGround * body_.hitGap) break;
+    if (rate > -1e-4 || std::fabs(height) < kOnGround) break;
     const double next = t - height / rate;
     if (!(next > 0 && next < length_)) break;
     t = next;
