@@ -57,8 +57,12 @@ bool inContact(const Motion& motion, const MotionSample& a, const MotionSample& 
 void lookAtStep(const Motion& motion, const MotionSample& a, const MotionSample& b, Flaws& flaws) {
   const double step = b.time - a.time;
   if (step < 0) flaws.add(b.time, "goes back in time");
-  if (step < kSameTime && ((b.position - a.position).norm() > kSamePose ||
-                           a.orientation.angularDistance(b.orientation) > kSamePose)) {
+  // Times so close are one; the body may still have moved on by what it does in that time.
+  const double moved = kSamePose + kSameTime * std::max(a.velocity.norm(), b.velocity.norm());
+  const double turned =
+      kSamePose + kSameTime * std::max(a.angularVelocity.norm(), b.angularVelocity.norm());
+  if (step < kSameTime && ((b.position - a.position).norm() > moved ||
+                           a.orientation.angularDistance(b.orientation) > turned)) {
     flaws.add(b.time, "two poses at one time");
   }
   if (step > kFlightStep + kSlack) flaws.add(a.time, "a gap between samples");
