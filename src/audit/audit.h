@@ -20,7 +20,7 @@ struct AuditSettings {
   double angularMomentum = 1e-6;  ///< relative change over a flight
   double frictionMargin = 0.02;   ///< share by which an impulse may leave the friction cone
   double energyRounding = 1e-6;   ///< relative; what counts as no gain of energy
-  double audibleShare = 0.01;     ///< threshold of hearing as a share of J_ref (method, 2)
+  double audibleShare = kAudibleShare;  ///< threshold of hearing as a share of J_ref (method, 2)
   double noiseTime = 1e-6;        ///< impulses under m g times this are rounding, s
   double restDrift = 1e-9;        ///< m and rad, pose while at rest
 };

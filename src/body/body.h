@@ -11,6 +11,10 @@
 
 namespace ifa {
 
+/// What is under this share of J_ref is not heard. Decision: 3 %, the share at which the gaps and
+/// numbers of simulated contacts are those that people mark in recordings (docs/method.md, 2).
+inline constexpr double kAudibleShare = 0.03;
+
 /// Contact behaviour of an object on one kind of ground.
 struct SurfaceProperties {
   double restitution = 0.5;     ///< Newton coefficient, 0 to 0.95

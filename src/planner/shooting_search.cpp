@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "base/portable_math.h"
 #include "planner/shooting_worker.h"
+#include "sampler/drop_statistics.h"
 
 namespace ifa {
 
@@ -23,9 +24,7 @@ bool better(const ShootingNode& a, const ShootingNode& b) { return a.log.total()
 
 ShootingProblem::ShootingProblem(const PlanRequest& planned, const ShootingSettings& tuning)
     : request(planned), settings(tuning), model(*planned.body, planned.surface) {
-  recorder.mergeGap = planned.body->definition.mergeGap;
-  recorder.weight = model.mass * kGravity;
-  recorder.threshold = 0.01 * planned.surface.referenceImpulse;
+  recorder = audibleCut(*planned.body, planned.surface);
   std::vector<double> starts, amplitudes;
   for (const SignatureEvent& event : planned.signature.events) {
     targets.push_back({event.amplitude, event.duration, event.centroid});

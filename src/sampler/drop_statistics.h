@@ -14,9 +14,6 @@
 
 namespace ifa {
 
-/// A contact is heard when its excess impulse is over this share of J_ref (docs/method.md 2).
-inline constexpr double kAudibleShare = 0.01;
-
 /// How the audible events of `body` on `surface` are found; J_ref is the surface's.
 [[nodiscard]] RecorderSettings audibleCut(const Body& body, const SurfaceProperties& surface);
 /// The paper's own cut: any impulse above zero.
