@@ -6,6 +6,14 @@
 
 namespace ifa {
 
+namespace {
+
+/// A body rocks and rolls at a rate that falls with the root of its size, and with it goes the step
+/// that follows it; impacts take no step.
+constexpr double kDieRadius = 0.015, kMostSteps = 2;  // m, times
+
+}  // namespace
+
 void VertexRows::clear() {
   x.clear();
   y.clear();
@@ -51,6 +59,7 @@ BodyModel::BodyModel(const Body& body, const SurfaceProperties& surfaceIn,
   inverseInertia = {1 / inertia.x, 1 / inertia.y, 1 / inertia.z};
   euler = {(inertia.y - inertia.z) / inertia.x, (inertia.z - inertia.x) / inertia.y,
            (inertia.x - inertia.y) / inertia.z};
+  step = settings.step * std::clamp(std::sqrt(radius / kDieRadius), 1.0, kMostSteps);
   slop = std::max(1e-5, 1e-3 * radius);
   hitGap = 0.3 * slop;
   speedRoot = std::sqrt(inverseMass + radius * radius / moments.minCoeff());

@@ -11,7 +11,7 @@ namespace ifa {
 
 /// Constants of the stepping scheme (docs/dynamics.md gives the reasons).
 struct KernelSettings {
-  double step = 1e-3;         ///< s, longest step in contact
+  double step = 1e-3;         ///< s, longest step in contact of a body the size of a die
   double stepAngle = 0.03;    ///< rad, largest turn in one step in contact
   double bounceSpeed = 0.02;  ///< m/s, slower impacts do not bounce
   double restSpeed = 0.02;    ///< m/s, kinetic speed under which a supported body is at rest
@@ -47,6 +47,7 @@ struct BodyModel {
   bool isotropic;                       ///< all moments equal: spin is constant in flight
   int symmetryAxis = -1;  ///< 0 or 2: the other two moments are equal; -1: they are not
   double radius;          ///< m
+  double step;            ///< longest step in contact, s
   double slop;            ///< gap that counts as touching, m
   double hitGap;          ///< gap in which a vertex is hit or held, m
   double speedRoot;       ///< speed of any point is at most this times the root of 2 E, kg^-1/2

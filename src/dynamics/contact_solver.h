@@ -68,6 +68,7 @@ class ContactSolver {
   ContactPoint<R> points[kMaxPoints];
   Vec<R> moment{};      ///< of rolling (x, y) and spinning (z) friction, accumulated, N m s
   Vec<R> spinTarget{};  ///< angular velocity that this friction tends to, rad/s
+  R rollingArm{};       ///< of rolling friction, m
 
   /// Changes `velocity` and `spin` (world frame) so that every point's normal velocity is at least
   /// its target and friction opposes sliding, rolling and spinning. Starts from the points'
@@ -183,7 +184,7 @@ class ContactSolver {
     const Vec<R> u = spin - spinTarget;
     Vec<R> next = {moment.x - u.x / inverse.xx, moment.y - u.y / inverse.yy,
                    moment.z - u.z / inverse.zz};
-    const R roll = press * R(body.surface.rollingFriction);
+    const R roll = press * rollingArm;
     const R size = laneSqrt(next.x * next.x + next.y * next.y);
     const R scale = select(size > roll, roll / laneMax(size, R(1e-300)), R(1.0));
     const R turn = press * R(body.surface.spinningFriction);

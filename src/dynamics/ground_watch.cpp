@@ -38,7 +38,7 @@ bool GroundWatch::cover(double height, const Vec<double>& up, double kinetic) {
 }
 
 void GroundWatch::list(double height, const Vec<double>& up, double kinetic) {
-  const double step = body_.settings.step + kTogether;
+  const double step = body_.step + kTogether;
   listedHeight_ = height;
   listedUp_ = up;
   mostKinetic_ = kFaster * kinetic;

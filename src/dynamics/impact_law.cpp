@@ -20,6 +20,7 @@ Impact solved(const BodyModel& body, const Rotation<double>& rotation, double re
     p.impulse = {};
   }
   solver.moment = solver.spinTarget = {};
+  solver.rollingArm = body.surface.rollingFriction;
   Impact impact{velocity, rotation * w, {}};
   solver.solve(body, WorldInertia<double>(body, rotation), body.settings.impactIterations,
                kPrecision * body.mass, impact.velocity, impact.w);

@@ -8,7 +8,12 @@
 namespace ifa {
 
 /// Where a lane is.
-enum class Phase { kFlight, kContact, kRest };
+enum class Phase {
+  kFlight,
+  kContact,
+  kHalfway,  ///< in the middle of a long step in contact, whose end is known
+  kRest
+};
 
 /// Pose and velocities; the angular velocity in the body (principal) frame.
 template <class R>

@@ -20,13 +20,18 @@ constexpr double kLandingSpeed = 5e-3;
 constexpr double kPartingSpeed = 0.1;
 /// One that rises no faster touches, m/s.
 constexpr double kTouchingSpeed = 5e-3;
-/// A body that hardly moves but is not supported (balanced on an edge to the last bit, or held
-/// there by rolling friction) is at rest after so long, s.
+/// A body that hardly moves but is not supported is held by rolling friction for so long, s ...
+constexpr double kHeld = 0.03;
+/// ... and at rest, balanced on an edge to the last bit, after so long, s.
 constexpr double kBalanced = 2;
 /// Impulses of a step are solved to this change of speed, m/s.
 constexpr double kPrecision = 3e-5;
-constexpr int kMostCuts = 3;
+constexpr int kMostCuts = 4;
 constexpr double kShortestStep = 1e-6;  // s
+/// Longer steps are told in two halves, so that what listens and draws needs no more than this, s.
+constexpr double kLongestPiece = 1e-3 * (1 + 1e-9);
+/// By how much the middle of such a step may be moved to keep its energy, in gaps that touch.
+constexpr double kMostRise = 0.1;
 
 }  // namespace
 
@@ -56,6 +61,10 @@ Advance Stepper::advance(double limit) {
       return fly(limit);
     case Phase::kContact:
       return touch(limit);
+    case Phase::kHalfway:
+      before_ = state_;
+      state_ = end_;
+      return finish();
     case Phase::kRest:
       break;
   }
@@ -114,7 +123,7 @@ void Stepper::gatherHits() {
 void Stepper::gatherHeld(double step) {
   chosen_.clear();
   const double fall = 0.5 * kGravity * step;
-  const double far = body_.hitGap + (body_.settings.bounceSpeed + fall) * step;
+  const double far = body_.hitGap + (kLandingSpeed + fall) * step;
   for (std::size_t i = 0; i < watch_.count(); ++i) {
     const double gap = now_.gap[i];
     if (gap > far) continue;
@@ -122,7 +131,7 @@ void Stepper::gatherHeld(double step) {
     const bool held = gap <= body_.hitGap
                           ? rate < kPartingSpeed
                           : gap + (rate - fall) * step < 0 && rate * step >= -2 * gap &&
-                                rate >= -body_.settings.bounceSpeed;
+                                rate >= -kLandingSpeed;
     if (held) chosen_.push_back(i);
   }
 }
@@ -168,6 +177,9 @@ Advance Stepper::lift() {
 
 void Stepper::warmStart(double step) {
   solver_.moment = {};
+  // Rolling friction stops a body that rolls; it does not hold one that is about to fall.
+  const bool falling = quietSince_ >= 0 && state_.time - quietSince_ > kHeld;
+  solver_.rollingArm = falling ? 0 : body_.surface.rollingFriction;
   if (lastCount_ == 0 || lastStep_ <= 0) return;
   const double scale = step / lastStep_;
   solver_.moment = lastMoment_ * scale;
@@ -258,6 +270,23 @@ bool Stepper::solveStep(double step) {
   return true;
 }
 
+/// Makes the state in the middle of a long step one through which energy falls: of two velocities
+/// the mean has less energy than they have on average, and what is missing goes into height (in
+/// free fall that is the height of the parabola over its chord). False where that is too much.
+bool Stepper::halve(double step, double energy0) {
+  if (step <= kLongestPiece) return true;
+  middle_ = {before_.time + 0.5 * step, (before_.position + state_.position) * 0.5,
+             renormalised((before_.q + state_.q) * 0.5), (before_.velocity + state_.velocity) * 0.5,
+             (before_.w + state_.w) * 0.5};
+  const double weight = body_.mass * kGravity;
+  const double energy1 = kinetic_ + weight * state_.position.z;
+  const double energy =
+      kineticEnergy(body_, middle_.velocity, middle_.w) + weight * middle_.position.z;
+  const double rise = (laneMin(laneMax(energy, energy1), energy0) - energy) / weight;
+  middle_.position.z += rise;
+  return std::abs(rise) <= kMostRise * body_.slop;
+}
+
 /// What the next step starts from.
 void Stepper::keep(double step) {
   std::swap(now_, next_);
@@ -274,7 +303,7 @@ Advance Stepper::contact(double limit) {
   before_ = state_;
   const double energy0 = kinetic_ + body_.mass * kGravity * state_.position.z;
   const double spin2 = dot(state_.w, state_.w), turn = body_.settings.stepAngle;
-  double step = laneMin(body_.settings.step, limit - state_.time);
+  double step = laneMin(body_.step, limit - state_.time);
   if (spin2 * step * step > turn * turn) step = turn / std::sqrt(spin2);
   for (int cuts = 0;; ++cuts) {
     gatherHeld(step);
@@ -284,15 +313,25 @@ Advance Stepper::contact(double limit) {
     spendGain(energy0);
     const Vec<double>& up = rotation_.rows[2];
     watch_.measure(state_.position.z, state_.velocity.z, up, cross(up, state_.w), next_);
-    const double earlier = overshoot(step);
-    if (earlier >= step || cuts == kMostCuts) break;
+    double shorter = overshoot(step);
+    if (shorter >= step && !halve(step, energy0)) shorter = 0.5 * step;
+    if (shorter >= step || cuts == kMostCuts) break;
     state_ = before_;
     rotation_ = Rotation<double>(state_.q);
     kinetic_ = kineticEnergy(body_, state_.velocity, state_.w);
-    step = laneMax(earlier, kShortestStep);
+    step = laneMax(shorter, kShortestStep);
   }
   keep(step);
-  if (settled()) phase_ = Phase::kRest;
+  if (step <= kLongestPiece) return finish();
+  end_ = state_;
+  state_ = middle_;
+  impulse_ = impulse_ * 0.5;
+  phase_ = Phase::kHalfway;
+  return Advance::kContact;
+}
+
+Advance Stepper::finish() {
+  phase_ = settled() ? Phase::kRest : Phase::kContact;
   return Advance::kContact;
 }
 

@@ -68,6 +68,8 @@ class Stepper {
             const Vec<double>& momentum);
   void spendGain(double energy0);
   void keep(double step);
+  bool halve(double step, double energy0);
+  Advance finish();
   [[nodiscard]] double overshoot(double step) const;
   [[nodiscard]] bool settled();
 
@@ -75,6 +77,7 @@ class Stepper {
   double restitution_;
   Phase phase_ = Phase::kFlight;
   KernelState<double> state_, before_;
+  KernelState<double> middle_, end_;  ///< of a long step
   Rotation<double> rotation_;  ///< of state_, when seen_
   GroundWatch watch_;
   GroundFrame now_, next_;  ///< of state_, when seen_; of the step's end

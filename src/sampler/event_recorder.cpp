@@ -25,19 +25,24 @@ void EventRecorder::add(const ContactStep& step) {
   if (open_) {
     const bool over = step.time >= bin_.time + kBin - kInstant;
     // An impact begins a bin of its own, so that an event starts exactly where it is heard.
-    const bool fresh = step.duration <= 0 && excess(bin_, settings_) <= settings_.threshold;
+    const bool fresh = step.duration <= 0 && heard() <= settings_.threshold;
     if (over || fresh) closeBin();
   }
   if (!open_) {
     bin_ = step;
+    loudest_ = excess(step, settings_);
     open_ = true;
     return;
   }
+  // What is heard by itself is heard, whatever the rest of its bin adds up to.
+  loudest_ = std::max(loudest_, excess(step, settings_));
   bin_.impulse += step.impulse;
   bin_.duration = step.time + step.duration - bin_.time;
   bin_.after = step.after;
   bin_.touching = step.touching;
 }
+
+double EventRecorder::heard() const { return std::max(loudest_, excess(bin_, settings_)); }
 
 void EventRecorder::elapse(double time) {
   if (open_ && time >= bin_.time + kBin - kInstant) closeBin();
@@ -46,7 +51,7 @@ void EventRecorder::elapse(double time) {
 void EventRecorder::closeBin() {
   open_ = false;
   largest_ = std::max(largest_, bin_.impulse.norm());
-  const double heard = excess(bin_, settings_);
+  const double heard = this->heard();
   if (heard <= (settings_.audible ? settings_.threshold : 0.0)) return;
   if (events_.empty() || bin_.time - events_.back().end >= settings_.mergeGap) {
     ContactEvent event;

@@ -35,11 +35,13 @@ class EventRecorder {
 
  private:
   void closeBin();
+  [[nodiscard]] double heard() const;  ///< excess of the open bin, N s
 
   RecorderSettings settings_;
   std::vector<ContactEvent> events_;
   ContactStep bin_;  ///< the 1 ms bin that is being filled
   bool open_ = false;
+  double loudest_ = 0;                        ///< excess of one step in it, N s
   double square_ = 0, sum_ = 0, moment_ = 0;  ///< of the current event's excess impulses
   double largest_ = 0;
 };

@@ -18,19 +18,13 @@ namespace {
 
 class SimulatedDrop : public testing::TestWithParam<const char*> {};
 
-// Now and then the simulator takes a body for resting that still rocks on two vertices; round ones
-// more often. Planned motions that end so are refused; here they are counted.
 TEST_P(SimulatedDrop, HoldsTheAudit) {
   const auto body = loadObject(GetParam());
   ASSERT_TRUE(body.has_value()) << body.error().text();
-  int onEdge = 0;
   for (std::uint64_t i = 0; i < 40; ++i) {
-    AuditReport report = audit(test::makeDropMotion(*body, i), *body);
-    if (!report.find("rest support")->passed) ++onEdge;
-    std::erase_if(report.checks, [](const auto& check) { return check.name == "rest support"; });
+    const AuditReport report = audit(test::makeDropMotion(*body, i), *body);
     EXPECT_TRUE(report.passed()) << "drop " << i << "\n" << formatAudit(report);
   }
-  EXPECT_LE(onEdge, 10);
 }
 
 INSTANTIATE_TEST_SUITE_P(Objects, SimulatedDrop,
