@@ -16,9 +16,11 @@ constexpr std::size_t kMostCuts = 24;
 }  // namespace
 
 void EventSimulation::outcomes(const RigidState& arrival, double restitution, bool terminal,
-                               bool cuts, std::vector<ContactEvent>& out) {
+                               bool cuts, std::vector<ContactEvent>& out, double mergeGap) {
   out.clear();
-  EventRecorder recorder(recorder_);
+  RecorderSettings settings = recorder_;
+  if (mergeGap > 0) settings.mergeGap = mergeGap;
+  EventRecorder recorder(settings);
   stepper_.start(kernelState(arrival, 0), restitution);
   double end = -1;
   bool ended = false, rest = false;
@@ -41,7 +43,7 @@ void EventSimulation::outcomes(const RigidState& arrival, double restitution, bo
       end = events[0].end;
       if (cuts && out.size() < kMostCuts) out.push_back(events[0]);
     }
-    ended = events.size() > 1 || (!terminal && time >= end + recorder_.mergeGap + kBinSlack);
+    ended = events.size() > 1 || (!terminal && time >= end + settings.mergeGap + kBinSlack);
   }
   const std::vector<ContactEvent> events = recorder.finish(rest);
   if (events.empty() || events[0].start > 0) return;

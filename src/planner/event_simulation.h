@@ -27,9 +27,10 @@ class EventSimulation {
   /// Ways in which the event that begins at `arrival` may end: the natural one first, then, where
   /// `cuts` is set, at each earlier impulse that is heard (what follows is then up to the caller).
   /// With `terminal`, the only way taken is that to rest without another audible event.
+  /// Contacts less than `mergeGap` (s; 0: the recorder's) apart are one event.
   /// Empty when the contact is not heard at once. Times count from the arrival.
   void outcomes(const RigidState& arrival, double restitution, bool terminal, bool cuts,
-                std::vector<ContactEvent>& out);
+                std::vector<ContactEvent>& out, double mergeGap = 0);
 
   /// Simulates from `state` for at most `horizon` seconds until an audible event begins.
   [[nodiscard]] std::optional<NextContact> nextAudible(const RigidState& state, double horizon);

@@ -18,7 +18,7 @@ constexpr std::size_t kBatch = 64;  ///< motions expanded before the bound is lo
 constexpr std::size_t kMostComplete = 64;
 constexpr double kNoBound = -1e300;
 
-bool better(const ShootingNode& a, const ShootingNode& b) { return a.log.total() > b.log.total(); }
+bool better(const ShootingNode& a, const ShootingNode& b) { return a.worth() > b.worth(); }
 
 }  // namespace
 
@@ -125,7 +125,7 @@ void ShootingSearch::expandLevel(std::size_t level, const std::function<bool()>&
         auto& done = levels_[next];
         std::stable_sort(done.begin(), done.end(), better);
         done.resize(kMostComplete);
-        bound = done.back().log.total();
+        bound = done.back().worth();
       }
     }
     if (events[next].weight >= 1) break;

@@ -44,11 +44,15 @@ struct ShootingNode {
   HeardEvent heard;
   double firstAmplitude = 1;  ///< N s
   LogScore log;
+  double ugly = 0;  ///< log units that its large bends cost beside their factors
   double rank = 0;
   double flightCost = 0;  ///< log units of the least change that flies to the next target
   double silentOff =
       1e9;  ///< how far the unchanged motion misses the next target after silent contact
   double energyBefore = 0, energyAfter = 0;  ///< J
+
+  /// Log score as far as known, large bends counted twice.
+  [[nodiscard]] double worth() const { return log.total() - ugly; }
 };
 
 /// Why children died, to tell the user which contact fails and why.

@@ -17,6 +17,9 @@ namespace {
 /// A touch that comes within this of the time asked for is that touch, s.
 constexpr double kTouchPrecision = 1e-7;
 constexpr double kLongestDrop = 10;  // s
+/// Decision: in a region that is marked as one sound, contacts so far apart are one event. It is
+/// what the paper closes for bodies that rattle; people mark even fainter chatter as one, s.
+constexpr double kRegionGap = 0.03;
 /// Ways to end one event that are followed up.
 constexpr std::size_t kMostEndings = 3;
 
@@ -56,6 +59,12 @@ void ShootingWorker::plantLate(unsigned root, std::uint64_t seed) {
 /// Contacts that are to be heard apart stay a merge gap apart, but for rounding.
 double ShootingWorker::shortestPassage() const { return problem_.recorder.mergeGap - 1e-6; }
 
+/// What sounds within a region that was marked is one event, if it does not fall silent for long.
+double ShootingWorker::mergeGapOf(std::size_t level) const {
+  const double gap = problem_.recorder.mergeGap;
+  return problem_.targets[level].duration > 0 ? std::max(gap, kRegionGap) : gap;
+}
+
 double ShootingWorker::droppedBetween(int from, int to) const {
   double penalty = 0;
   for (int k = from + 1; k < to; ++k) {
@@ -85,6 +94,7 @@ void ShootingWorker::expand(const ShootingNode& node, int index, int level, doub
   child.root = node.root;
   child.firstAmplitude = node.firstAmplitude;
   child.log = node.log;
+  child.ugly = node.ugly;
   child.log.sound -= droppedBetween(node.level, level);
   child.start = problem_.request.signature.events[static_cast<std::size_t>(level)].time;
   const double duration = child.start - node.start - node.event.end;
@@ -138,7 +148,7 @@ void ShootingWorker::shoot(const ShootingNode& node, ShootingNode child,
     ++deaths.noFlight;
     return;
   }
-  if (flight->bend > settings().bendCap || child.log.total() + logVelocity(flight->bend) <= bound) {
+  if (flight->bend > settings().bendCap || child.worth() + logVelocity(flight->bend) <= bound) {
     ++deaths.bent;
     return;
   }
@@ -180,7 +190,7 @@ void ShootingWorker::shootSilently(const ShootingNode& node, const ShootingNode&
   const auto found = [&] {
     edge.bend = region.bend(edge.velocityChange, edge.angularChange);
     if (!next || edge.bend > settings().bendCap ||
-        child.log.total() + logVelocity(edge.bend) <= bound) {
+        child.worth() + logVelocity(edge.bend) <= bound) {
       ++deaths.bent;
       return;
     }
@@ -210,7 +220,8 @@ void ShootingWorker::shootAhead(const ShootingNode& node, const ShootingNode& ch
     if (!flight || flight->bend > settings().bendCap || flight->energy > mostEnergy) return never;
     touch = firstTouch(problem_.model, flight->departure, duration + 1e-3);
     if (!touch || std::abs(touch->time - duration) > kTouchPrecision) return never;
-    simulation_.outcomes(touch->state, problem_.model.surface.restitution, false, false, outcomes_);
+    simulation_.outcomes(touch->state, problem_.model.surface.restitution, false, false, outcomes_,
+                         mergeGapOf(static_cast<std::size_t>(child.level)));
     if (outcomes_.empty()) return never;
     const double gap = after - child.start - outcomes_[0].end;
     if (gap < shortestPassage()) return never;
@@ -235,7 +246,7 @@ void ShootingWorker::arrive(const ShootingNode& node, ShootingNode child, const 
   const HeardEvent& target = problem_.targets[k];
   const bool last = k + 1 == problem_.targets.size();
   const bool terminal = last && problem_.request.signature.terminal;
-  simulation_.outcomes(arrival, restitution, terminal, !last, outcomes_);
+  simulation_.outcomes(arrival, restitution, terminal, !last, outcomes_, mergeGapOf(k));
   if (outcomes_.empty()) ++(terminal ? deaths.restless : deaths.unheard);
   const bool first = child.parent < 0;
   child.velocityChange = edge.velocityChange;
@@ -248,6 +259,9 @@ void ShootingWorker::arrive(const ShootingNode& node, ShootingNode child, const 
   const double rebound =
       std::abs(restitution - nominal) / (1 + nominal) / AffinityParameters().maxRelativeLinear;
   child.bend = std::sqrt(edge.bend * edge.bend + rebound * rebound);
+  const auto& set = problem_.settings;
+  const double large = std::max(0.0, child.bend - set.largeBend);
+  child.ugly += set.bendAversion * large * large;
   child.log.motion += logVelocity(child.bend);
   child.log.velocity += logVelocity(child.bend);
   if (child.bend > settings().bendCap) return;
@@ -260,10 +274,10 @@ void ShootingWorker::arrive(const ShootingNode& node, ShootingNode child, const 
     ending.heard = heardOf(event, ending.firstAmplitude);
     ending.log.sound += logAmplitude(target, ending.heard) + logDuration(target, ending.heard) +
                         logCentroid(target, ending.heard);
-    if (ending.log.total() > bound) endings.push_back(ending);
+    if (ending.worth() > bound) endings.push_back(ending);
   }
   std::stable_sort(endings.begin(), endings.end(),
-                   [](const auto& a, const auto& b) { return a.log.total() > b.log.total(); });
+                   [](const auto& a, const auto& b) { return a.worth() > b.worth(); });
   if (endings.size() > kMostEndings) endings.resize(kMostEndings);
   for (ShootingNode& ending : endings) {
     ending.energyBefore = totalEnergy(problem_.model, ending.event.before);
@@ -276,7 +290,7 @@ void ShootingWorker::arrive(const ShootingNode& node, ShootingNode child, const 
 /// Ranks a motion by its score so far, the cost of the next step, and whether its energy suits what
 /// follows.
 void ShootingWorker::judge(ShootingNode& node) const {
-  node.rank = node.log.total();
+  node.rank = node.worth();
   const auto k = static_cast<std::size_t>(node.level);
   if (k + 1 >= problem_.targets.size()) return;
   node.rank -= lookAhead(node);
@@ -322,7 +336,8 @@ double ShootingWorker::flightCost(const ShootingNode& node, double duration) con
 /// Log units lost by the last event if it began at `arrival`, as far as that is bearable.
 double ShootingWorker::endingCost(const ShootingNode& node, const RigidState& arrival) const {
   std::vector<ContactEvent> endings;
-  simulation_.outcomes(arrival, problem_.model.surface.restitution, true, false, endings);
+  simulation_.outcomes(arrival, problem_.model.surface.restitution, true, false, endings,
+                       mergeGapOf(problem_.targets.size() - 1));
   const double restless = problem_.settings.restless;
   if (endings.empty()) return restless;
   const HeardEvent heard = heardOf(endings[0], node.firstAmplitude);

@@ -54,6 +54,7 @@ class ShootingWorker {
   [[nodiscard]] static double silentHorizon(double duration);
   [[nodiscard]] double endingCost(const ShootingNode& node, const RigidState& arrival) const;
   [[nodiscard]] HeardEvent heardOf(const ContactEvent& event, double firstAmplitude) const;
+  [[nodiscard]] double mergeGapOf(std::size_t level) const;
   [[nodiscard]] double droppedBetween(int from, int to) const;
   [[nodiscard]] double variedRestitution(int level, int attempt, RandomStream& random) const;
   [[nodiscard]] PlausibleRegion regionOf(const ContactEvent& event) const;
