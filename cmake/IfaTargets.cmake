@@ -40,6 +40,7 @@ function(ifa_tests NAME)
     target_link_libraries(ifa_${NAME}_test PRIVATE ifa ifa_flags ${ARGN} GTest::gtest_main
                                                    GTest::gmock)
     gtest_discover_tests(ifa_${NAME}_test TEST_PREFIX "${NAME}." DISCOVERY_TIMEOUT 60
-                         PROPERTIES TIMEOUT 900)
+                         PROPERTIES TIMEOUT 900
+                         ENVIRONMENT "XDG_CACHE_HOME=${CMAKE_CURRENT_BINARY_DIR}/cache")
   endif()
 endfunction()

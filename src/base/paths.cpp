@@ -8,6 +8,12 @@ namespace ifa {
 
 namespace {
 
+/// What an environment variable says; empty when it is not set.
+std::filesystem::path pathFrom(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value == nullptr ? std::filesystem::path() : std::filesystem::path(value);
+}
+
 bool isFolder(const std::filesystem::path& path) {
   std::error_code code;
   return std::filesystem::is_directory(path, code);
@@ -24,13 +30,20 @@ std::filesystem::path installedObjects() {
 }  // namespace
 
 std::filesystem::path objectsFolder() {
-  if (const char* chosen = std::getenv("IFA_OBJECTS"); chosen != nullptr && *chosen != '\0') {
-    return chosen;
-  }
+  if (const auto chosen = pathFrom("IFA_OBJECTS"); !chosen.empty()) return chosen;
   for (const auto& folder : {installedObjects(), std::filesystem::path(IFA_SOURCE_OBJECTS)}) {
     if (isFolder(folder)) return folder;
   }
   return {};
+}
+
+std::filesystem::path cacheFolder() {
+  // The XDG specification has relative paths ignored.
+  if (const auto base = pathFrom("XDG_CACHE_HOME"); base.is_absolute()) {
+    return base / "inverse-foley";
+  }
+  const auto home = pathFrom("HOME");
+  return home.is_absolute() ? home / ".cache" / "inverse-foley" : std::filesystem::path();
 }
 
 }  // namespace ifa

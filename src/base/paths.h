@@ -11,4 +11,8 @@ namespace ifa {
 /// Empty when none of them is there.
 [[nodiscard]] std::filesystem::path objectsFolder();
 
+/// Where what can be learnt again is kept: `$XDG_CACHE_HOME/inverse-foley`, else
+/// `$HOME/.cache/inverse-foley`. Empty when neither variable is set. Need not exist.
+[[nodiscard]] std::filesystem::path cacheFolder();
+
 }  // namespace ifa

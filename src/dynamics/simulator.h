@@ -12,6 +12,10 @@
 
 namespace ifa {
 
+/// Raised with every change after which the same start gives another motion, so that nothing stored
+/// before is taken for the same.
+inline constexpr unsigned kSimulationVersion = 2;
+
 /// What a whole drop gave.
 struct DropResult {
   bool atRest = false;             ///< false: the time limit came first

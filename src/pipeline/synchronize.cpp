@@ -9,12 +9,14 @@
 #include <cmath>
 
 #include "audit/audit.h"
+#include "base/paths.h"
 #include "base/staged_folder.h"
 #include "base/version.h"
 #include "body/object_file.h"
 #include "motion/build_motion.h"
 #include "pipeline/copy_object.h"
 #include "pipeline/hear.h"
+#include "pipeline/learned.h"
 #include "pipeline/output.h"
 #include "planner/planner.h"
 
@@ -66,9 +68,10 @@ struct Job {
   std::string surface;
   Heard heard;
   std::unique_ptr<Planner> planner;
+  EnergyOutlook outlook;
 };
 
-Result<Job> prepare(const SynchronizeSettings& settings) {
+Result<Job> prepare(const SynchronizeSettings& settings, const Progress& progress) {
   if (auto good = checkSettings(settings); !good) return tl::unexpected(good.error());
   auto planner = makePlanner(settings.planner);
   if (!planner) return tl::unexpected(planner.error());
@@ -78,7 +81,11 @@ Result<Job> prepare(const SynchronizeSettings& settings) {
   if (!surface) return tl::unexpected(surface.error());
   auto heard = hear(settings, body->definition.mergeGap);
   if (!heard) return tl::unexpected(heard.error());
-  return Job{std::move(*body), std::move(*surface), std::move(*heard), std::move(*planner)};
+  SurfaceProperties& properties = body->definition.surfaces.at(*surface);
+  const Learned learned = learnObject(*body, properties, cacheFolder(), progress);
+  properties.referenceImpulse = learned.referenceImpulse;
+  return Job{std::move(*body), std::move(*surface), std::move(*heard), std::move(*planner),
+             learned.outlook};
 }
 
 PlanRequest makeRequest(const SynchronizeSettings& settings, const Job& job) {
@@ -90,6 +97,7 @@ PlanRequest makeRequest(const SynchronizeSettings& settings, const Job& job) {
   request.settings.takes = settings.takes;
   request.settings.timeLimitSeconds = settings.timeLimitSeconds;
   request.settings.energyGain = settings.energyGain;
+  request.outlook = job.outlook;
   return request;
 }
 
@@ -165,7 +173,7 @@ Result<Synchronization> run(const SynchronizeSettings& settings, const Job& job,
 }  // namespace
 
 Result<Synchronization> synchronize(const SynchronizeSettings& settings, const Progress& progress) {
-  auto job = prepare(settings);
+  auto job = prepare(settings, progress);
   if (!job) return tl::unexpected(job.error());
   return run(settings, *job, progress);
 }
@@ -174,7 +182,7 @@ Result<Synchronization> synchronizeToFolder(const SynchronizeSettings& settings,
                                             const fs::path& folder,
                                             const std::set<OutputFormat>& formats,
                                             const Progress& progress) {
-  auto job = prepare(settings);
+  auto job = prepare(settings, progress);
   if (!job) return tl::unexpected(job.error());
   const std::vector<fs::path> inputs = {settings.sound, settings.labels};
   if (auto good = refuseToOverwrite(folder, inputs, job->body.definition); !good) {

@@ -51,6 +51,15 @@ double logAbove(double energy, double rest) {
 
 }  // namespace
 
+EnergyOutlook::EnergyOutlook(const Coefficients& known)
+    : weights_(known.weights.data()), spread_(known.spread), restEnergy_(known.restEnergy) {}
+
+EnergyOutlook::Coefficients EnergyOutlook::coefficients() const {
+  Coefficients known{{}, spread_, restEnergy_};
+  std::copy(weights_.begin(), weights_.end(), known.weights.begin());
+  return known;
+}
+
 EnergyOutlook::Features EnergyOutlook::features(const std::vector<double>& starts,
                                                 const std::vector<double>& impulses,
                                                 std::size_t k) {

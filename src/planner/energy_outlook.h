@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "body/body.h"
@@ -19,6 +20,16 @@ class EnergyOutlook {
  public:
   static constexpr int kFeatures = 6;
   using Features = Eigen::Matrix<double, kFeatures, 1>;
+
+  /// All that is learnt.
+  struct Coefficients {
+    std::array<double, kFeatures> weights{};
+    double spread = 1, restEnergy = 0;
+  };
+
+  EnergyOutlook() = default;
+  explicit EnergyOutlook(const Coefficients& known);
+  [[nodiscard]] Coefficients coefficients() const;
 
   /// Simulates `drops` drops from the body's own sampling.
   [[nodiscard]] static EnergyOutlook learn(const Body& body, const BodyModel& model,

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "ifa/result.h"
 #include "model/contact_event.h"
 #include "model/rigid_state.h"
+#include "planner/energy_outlook.h"
 
 namespace ifa {
 
@@ -33,6 +35,7 @@ struct PlanRequest {
   SurfaceProperties surface;
   ContactSignature signature;
   PlannerSettings settings;
+  std::optional<EnergyOutlook> outlook;  ///< of body and surface; learnt when not given
 };
 
 /// One contact of a plan: the event as simulated, and the change of velocity that leads out of it.

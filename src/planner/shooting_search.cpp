@@ -34,7 +34,9 @@ ShootingProblem::ShootingProblem(const PlanRequest& planned, const ShootingSetti
   for (std::size_t k = 0; k + 1 < targets.size(); ++k) {
     features.push_back(EnergyOutlook::features(starts, amplitudes, k));
   }
-  if (targets.size() > 1) {
+  if (planned.outlook) {
+    outlook = *planned.outlook;
+  } else if (targets.size() > 1) {
     outlook = EnergyOutlook::learn(*planned.body, model, recorder, settings.outlookDrops);
   }
 }

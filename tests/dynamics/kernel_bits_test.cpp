@@ -76,7 +76,7 @@ TEST(KernelBits, AStepperThatRanBeforeStartsAfresh) {
 }
 
 /// A deliberate change of the kernel's motions changes this; whoever makes one puts the new value
-/// here and raises the simulation version of what is stored.
+/// here and raises kSimulationVersion.
 TEST(KernelBits, AreTheGoldenOnes) {
   const Body box = makeBoxBody({0.0625, 0.03125, 0.015625}, 0.03125);
   const Body cube = makeBoxBody({0.015625, 0.015625, 0.015625}, 0.00390625);

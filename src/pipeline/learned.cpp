@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/learned.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "base/file.h"
+#include "base/hash.h"
+#include "dynamics/simulator.h"
+#include "planner/shooting_settings.h"
+#include "sampler/calibration.h"
+#include "sampler/drop_statistics.h"
+
+namespace ifa {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr std::size_t kMostBytes = 1 << 16;
+constexpr std::size_t kImpulseDrops = 500;
+
+/// Everything that what is learnt depends on.
+std::uint64_t keyOf(const Body& body, const SurfaceProperties& surface) {
+  Hash hash;
+  hash.add(std::uint64_t{kSimulationVersion}).add(kAudibleShare);
+  hash.add(body.mass).add(body.definition.mergeGap);
+  for (const Eigen::Vector3d& vertex : body.hull) {
+    hash.add(vertex.x()).add(vertex.y()).add(vertex.z());
+  }
+  for (const double moment : body.principalMoments) hash.add(moment);
+  for (const double entry : body.bodyFromPrincipal.reshaped()) hash.add(entry);
+  const SamplingSettings& sampling = body.definition.sampling;
+  hash.add(sampling.coneDegrees).add(sampling.speed[0]).add(sampling.speed[1]);
+  hash.add(sampling.spin[0]).add(sampling.spin[1]);
+  hash.add(surface.restitution).add(surface.friction).add(surface.rollingFriction);
+  hash.add(surface.spinningFriction).add(surface.referenceImpulse);
+  return hash.value();
+}
+
+std::optional<Learned> read(const fs::path& file, std::uint64_t key) {
+  const auto text = readFile(file, kMostBytes);
+  if (!text) return {};
+  const Json json = Json::parse(*text, nullptr, false);
+  try {
+    if (json.at("key") != key) return {};
+    const EnergyOutlook::Coefficients coefficients = {
+        json.at("weights").get<std::array<double, EnergyOutlook::kFeatures>>(), json.at("spread"),
+        json.at("rest_energy")};
+    Learned learned{json.at("reference_impulse"), EnergyOutlook(coefficients)};
+    return learned;
+  } catch (const Json::exception&) {
+    return {};
+  }
+}
+
+void write(const fs::path& file, std::uint64_t key, const Learned& learned) {
+  const EnergyOutlook::Coefficients outlook = learned.outlook.coefficients();
+  const Json json = {{"key", key},
+                     {"reference_impulse", learned.referenceImpulse},
+                     {"weights", outlook.weights},
+                     {"spread", outlook.spread},
+                     {"rest_energy", outlook.restEnergy}};
+  std::error_code code;
+  fs::create_directories(file.parent_path(), code);
+  // A cache that cannot be written is no loss but of time.
+  (void)writeFileAtomically(file, json.dump(1) + "\n");
+}
+
+}  // namespace
+
+Learned learnObject(const Body& body, const SurfaceProperties& surface, const fs::path& cache,
+                    const Progress& progress) {
+  const std::uint64_t key = keyOf(body, surface);
+  const fs::path file = cache / fmt::format("object-{:016x}.json", key);
+  if (!cache.empty()) {
+    if (const auto known = read(file, key)) return *known;
+  }
+  progress("learn", 0);
+  SurfaceProperties heard = surface;
+  if (heard.referenceImpulse <= 0) {
+    CalibrationSettings settings;
+    settings.simulations = kImpulseDrops;
+    heard.referenceImpulse = measureSurface(body, heard, settings).referenceImpulse;
+  }
+  progress("learn", 0.3);
+  const BodyModel model(body, heard);
+  const Learned learned{
+      heard.referenceImpulse,
+      EnergyOutlook::learn(body, model, audibleCut(body, heard), ShootingSettings().outlookDrops)};
+  if (!cache.empty()) write(file, key, learned);
+  progress("learn", 1);
+  return learned;
+}
+
+}  // namespace ifa

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is learnt of an object from drops of it, once, before anything is planned with it.
+#pragma once
+
+#include <filesystem>
+
+#include "base/progress.h"
+#include "body/body.h"
+#include "planner/energy_outlook.h"
+
+namespace ifa {
+
+struct Learned {
+  double referenceImpulse = 0;  ///< J_ref, N s: the surface's own, or measured where it has none
+  EnergyOutlook outlook;
+};
+
+/// Takes it from `cache` where a file of this very body, surface and version of the simulation is
+/// there; else drops the body (some tenths of a second) and puts it there, if it can. What comes
+/// back has the same bits either way. An unreadable or foreign file counts as none; an empty
+/// `cache` is never used.
+[[nodiscard]] Learned learnObject(const Body& body, const SurfaceProperties& surface,
+                                  const std::filesystem::path& cache, const Progress& progress);
+
+}  // namespace ifa
