@@ -14,12 +14,6 @@ constexpr double kDieRadius = 0.015, kMostSteps = 2;  // m, times
 
 }  // namespace
 
-void VertexRows::clear() {
-  x.clear();
-  y.clear();
-  z.clear();
-}
-
 void VertexRows::add(double px, double py, double pz) {
   x.push_back(px);
   y.push_back(py);

@@ -29,7 +29,6 @@ struct VertexRows {
 
   std::vector<double> x, y, z;  ///< principal frame, m
 
-  void clear();
   void add(double px, double py, double pz);
   void fillUp();
   [[nodiscard]] std::size_t size() const { return x.size(); }

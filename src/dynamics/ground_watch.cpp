@@ -2,6 +2,7 @@
 #include "dynamics/ground_watch.h"
 
 #include <cmath>
+#include <numeric>
 
 namespace ifa {
 
@@ -18,10 +19,12 @@ constexpr double kSlower = 8, kSlow = 0.05;
 
 }  // namespace
 
-GroundWatch::GroundWatch(const BodyModel& body) : body_(body), all_(body.x.size() <= kFew) {
+GroundWatch::GroundWatch(const BodyModel& body)
+    : body_(body), rows_(body.rows), index_(body.rows.size()), all_(body.x.size() <= kFew) {
+  std::iota(index_.begin(), index_.end(), 0);
   if (!all_) return;
-  rows_ = body.rows;
-  for (std::size_t i = 0; i < body.x.size(); ++i) index_.push_back(static_cast<int>(i));
+  count_ = body.x.size();
+  filled_ = body.rows.size();
 }
 
 bool GroundWatch::cover(double height, const Vec<double>& up, double kinetic) {
@@ -45,21 +48,30 @@ void GroundWatch::list(double height, const Vec<double>& up, double kinetic) {
   const double speed = body_.speedRoot * std::sqrt(2 * mostKinetic_) + kGravity * step;
   reach_ = speed * step + body_.slop;
   margin_ = kFarther * reach_ + kFartherRadii * body_.radius;
-  rows_.clear();
-  index_.clear();
-  const VertexRows& all = body_.rows;
+  const double *x = body_.rows.x.data(), *y = body_.rows.y.data(), *z = body_.rows.z.data();
+  double *nearX = rows_.x.data(), *nearY = rows_.y.data(), *nearZ = rows_.z.data();
+  count_ = 0;
   for (std::size_t i = 0; i < body_.x.size(); ++i) {
-    const double gap = height + (all.x[i] * up.x + all.y[i] * up.y + all.z[i] * up.z);
-    if (gap > margin_) continue;
-    rows_.add(all.x[i], all.y[i], all.z[i]);
-    index_.push_back(static_cast<int>(i));
+    const double gap = height + (x[i] * up.x + y[i] * up.y + z[i] * up.z);
+    // Written in any case, and kept by counting: whether a vertex is near is hard to foretell.
+    nearX[count_] = x[i];
+    nearY[count_] = y[i];
+    nearZ[count_] = z[i];
+    index_[count_] = static_cast<int>(i);
+    count_ += gap <= margin_ ? 1 : 0;
   }
-  if (!index_.empty()) rows_.fillUp();
+  constexpr std::size_t kChunk = VertexRows::kChunk;
+  filled_ = (count_ + kChunk - 1) / kChunk * kChunk;
+  for (std::size_t i = count_; i < filled_; ++i) {
+    nearX[i] = nearX[count_ - 1];
+    nearY[i] = nearY[count_ - 1];
+    nearZ[i] = nearZ[count_ - 1];
+  }
 }
 
 void GroundWatch::measure(double height, double rise, const Vec<double>& up,
                           const Vec<double>& turn, GroundFrame& frame) const {
-  const std::size_t size = rows_.size();
+  const std::size_t size = filled_;
   if (frame.gap.size() < size) {
     frame.gap.resize(size);
     frame.rate.resize(size);

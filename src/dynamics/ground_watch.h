@@ -34,7 +34,7 @@ class GroundWatch {
   void measure(double height, double rise, const Vec<double>& up, const Vec<double>& turn,
                GroundFrame& frame) const;
 
-  [[nodiscard]] std::size_t count() const { return index_.size(); }
+  [[nodiscard]] std::size_t count() const { return count_; }
   /// Hull vertex number `i` of the list; they are in the hull's order.
   [[nodiscard]] int vertex(std::size_t i) const { return index_[i]; }
   [[nodiscard]] Vec<double> place(std::size_t i) const {
@@ -45,8 +45,10 @@ class GroundWatch {
   void list(double height, const Vec<double>& up, double kinetic);
 
   const BodyModel& body_;
-  VertexRows rows_;
-  std::vector<int> index_;
+  VertexRows rows_;         ///< room for all vertices; the list is what comes first
+  std::vector<int> index_;  ///< likewise
+  std::size_t count_ = 0;   ///< length of the list ...
+  std::size_t filled_ = 0;  ///< ... and filled up to a multiple of VertexRows::kChunk
   double listedHeight_ = 0;
   Vec<double> listedUp_{};
   double mostKinetic_ = -1;  ///< J, for which reach_ is enough
