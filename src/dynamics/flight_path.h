@@ -75,8 +75,7 @@ class FlightPath {
   [[nodiscard]] R refined(R t, const Vec<R>& p, R length, PathPoint<R>& seen) const {
     LaneMask<R> live(true);
     for (int i = 0; i < 3; ++i) {
-      setWhere(live, seen.t, t);
-      setWhere(live, seen.state, at(t));
+      seen = {t, at(t)};  // the same again where `t` stays
       const PointHeights<R> heights(seen.state);
       const R height = heights.height(p), rate = heights.rate(p), off = laneAbs(height);
       live = live & !((rate > R(-1e-4)) | (off < R(kOnGround)));

@@ -78,12 +78,11 @@ struct HeightCubic {
     const R half(0.5);
     setWhere(live, touch, half * (low + high));
     for (int i = 0; i < 30; ++i) {
-      const R s = touch, height = at(s), rate = slope(s);
-      const LaneMask<R> above = height > R(0.0), falls = rate < R(0.0);
+      const R s = touch, height = at(s);
+      const LaneMask<R> above = height > R(0.0);
       low = select(above, s, low);
       high = select(above, high, s);
-      R next = low;
-      if (anyLane(falls)) setWhere(falls, next, s - height / rate);
+      R next = s - height / slope(s);  // not inside where the slope is up, or none
       const LaneMask<R> inside = (next > low) & (next < high);
       next = select(inside, next, half * (low + high));
       setWhere(live, touch, next);

@@ -25,14 +25,6 @@ struct KernelState {
   Vec<R> w{};
 };
 
-template <class R>
-KernelState<R> select(const LaneMask<R>& mask, const KernelState<R>& yes,
-                      const KernelState<R>& no) {
-  return {select(mask, yes.time, no.time), select(mask, yes.position, no.position),
-          select(mask, yes.q, no.q), select(mask, yes.velocity, no.velocity),
-          select(mask, yes.w, no.w)};
-}
-
 inline KernelState<double> kernelState(const RigidState& state, double time) {
   KernelState<double> k;
   k.time = time;
