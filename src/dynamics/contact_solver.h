@@ -44,10 +44,11 @@ struct WorldInertia {
   }
 };
 
-/// One touching vertex.
+/// One touching vertex, in each lane its own.
 template <class R>
 struct ContactPoint {
-  int vertex = -1;
+  LaneMask<R> here{true};                ///< lanes that have it; in others its impulse is 0
+  Vec<R> place{};                        ///< body frame, m
   R gap{}, rate{};                       ///< height, m, and its rate, m/s, where the step begins
   Vec<R> r{};                            ///< from the centre of mass, world frame, m
   Vec<R> target{};                       ///< velocity of a point that sticks; z is the least, m/s
@@ -64,7 +65,7 @@ class ContactSolver {
  public:
   static constexpr int kMaxPoints = 8;
 
-  int count = 0;
+  int count = 0;  ///< of the lane that has most
   ContactPoint<R> points[kMaxPoints];
   Vec<R> moment{};      ///< of rolling (x, y) and spinning (z) friction, accumulated, N m s
   Vec<R> spinTarget{};  ///< angular velocity that this friction tends to, rad/s
@@ -72,39 +73,55 @@ class ContactSolver {
 
   /// Changes `velocity` and `spin` (world frame) so that every point's normal velocity is at least
   /// its target and friction opposes sliding, rolling and spinning. Starts from the points'
-  /// impulses and from `moment`; leaves impulses that are `precision` (N s) from settled.
+  /// impulses and from `moment`; leaves impulses that are `precision` (N s) from settled. A lane
+  /// that has settled is left as it is while others have not.
   void solve(const BodyModel& body, const WorldInertia<R>& inverse, int sweeps, R precision,
              Vec<R>& velocity, Vec<R>& spin) {
     const bool rolls = body.surface.rollingFriction > 0 || body.surface.spinningFriction > 0;
     for (int k = 0; k < count; ++k) {
       prepare(body, inverse, points[k]);
-      apply(body, points[k], points[k].impulse, velocity, spin);
+      apply(body, lanesWith(k), points[k], points[k].impulse, velocity, spin);
     }
     if (rolls) spin = spin + inverse * moment;
+    LaneMask<R> live(true);
     for (int sweep = 0; sweep < sweeps; ++sweep) {
       R change(0.0);
       for (int k = 0; k < count; ++k) {
-        change = laneMax(change, relax(body, points[k], velocity, spin));
+        const LaneMask<R> moves = live & lanesWith(k);
+        if (!anyLane(moves)) continue;
+        change = laneMax(change, relax(body, moves, points[k], velocity, spin));
       }
-      if (rolls) brake(body, inverse, spin);
-      if (!anyLane(change > precision)) break;
+      if (rolls) brake(body, inverse, live, spin);
+      live = live & (change > precision);
+      if (!anyLane(live)) break;
     }
   }
 
   /// Sum of all angular impulses about the centre of mass, world frame, N m s.
   [[nodiscard]] Vec<R> totalTurn() const {
     Vec<R> sum = moment;
-    for (int k = 0; k < count; ++k) sum = sum + cross(points[k].r, points[k].impulse);
+    for (int k = 0; k < count; ++k) {
+      setWhere(lanesWith(k), sum, sum + cross(points[k].r, points[k].impulse));
+    }
     return sum;
   }
   /// Sum of all impulses, world frame, N s.
   [[nodiscard]] Vec<R> total() const {
     Vec<R> sum{};
-    for (int k = 0; k < count; ++k) sum = sum + points[k].impulse;
+    for (int k = 0; k < count; ++k) setWhere(lanesWith(k), sum, sum + points[k].impulse);
     return sum;
   }
 
  private:
+  /// Lanes that have point `k`: a lane on its own has all of `count`.
+  [[nodiscard]] LaneMask<R> lanesWith([[maybe_unused]] int k) const {
+    if constexpr (LaneTraits<R>::kLanes == 1) {
+      return LaneMask<R>(true);
+    } else {
+      return points[k].here;
+    }
+  }
+
   static void prepare(const BodyModel& body, const WorldInertia<R>& inverse, ContactPoint<R>& p) {
     const R inverseMass(body.inverseMass), one(1.0);
     const Vec<R> a = {inverse.xx, inverse.xy, inverse.xz}, b = {inverse.xy, inverse.yy, inverse.yz};
@@ -138,14 +155,15 @@ class ContactSolver {
     p.zz = (xy - axy * axy) * scale;
   }
 
-  static void apply(const BodyModel& body, const ContactPoint<R>& p, const Vec<R>& impulse,
-                    Vec<R>& velocity, Vec<R>& spin) {
-    velocity = velocity + impulse * R(body.inverseMass);
-    spin = spin + p.turnX * impulse.x + p.turnY * impulse.y + p.turnZ * impulse.z;
+  static void apply(const BodyModel& body, const LaneMask<R>& lanes, const ContactPoint<R>& p,
+                    const Vec<R>& impulse, Vec<R>& velocity, Vec<R>& spin) {
+    setWhere(lanes, velocity, velocity + impulse * R(body.inverseMass));
+    setWhere(lanes, spin, spin + p.turnX * impulse.x + p.turnY * impulse.y + p.turnZ * impulse.z);
   }
 
-  /// One Gauss-Seidel visit; returns the size of the change.
-  static R relax(const BodyModel& body, ContactPoint<R>& p, Vec<R>& velocity, Vec<R>& spin) {
+  /// One Gauss-Seidel visit in the lanes `moves`; returns the size of the change, 0 in others.
+  static R relax(const BodyModel& body, const LaneMask<R>& moves, ContactPoint<R>& p,
+                 Vec<R>& velocity, Vec<R>& spin) {
     const R ux = velocity.x + spin.y * p.r.z - spin.z * p.r.y - p.target.x;
     const R uy = velocity.y + spin.z * p.r.x - spin.x * p.r.z - p.target.y;
     const R uz = velocity.z + spin.x * p.r.y - spin.y * p.r.x - p.target.z;
@@ -153,14 +171,14 @@ class ContactSolver {
                           p.impulse.y - (p.xy * ux + p.yy * uy + p.yz * uz),
                           p.impulse.z - (p.xz * ux + p.yz * uy + p.zz * uz)};
     const R limit = R(body.surface.friction) * stick.z;
-    const auto slides =
+    const LaneMask<R> slides =
         (stick.z < R(0.0)) | (stick.x * stick.x + stick.y * stick.y > limit * limit);
     Vec<R> next = stick;
-    if (anyLane(slides)) next = select<R>(slides, slide(body, p, {ux, uy, uz}), stick);
+    if (anyLane(slides)) setWhere(slides, next, slide(body, p, {ux, uy, uz}));
     const Vec<R> change = next - p.impulse;
-    apply(body, p, change, velocity, spin);
-    p.impulse = next;
-    return laneAbs(change.x) + laneAbs(change.y) + laneAbs(change.z);
+    apply(body, moves, p, change, velocity, spin);
+    setWhere(moves, p.impulse, next);
+    return select(moves, laneAbs(change.x) + laneAbs(change.y) + laneAbs(change.z), R(0.0));
   }
 
   /// Impulse of a point that slides or parts: the normal one first, then friction within its limit.
@@ -178,7 +196,8 @@ class ContactSolver {
 
   /// Rolling and spinning friction: moments that stop the spin, at most the friction arm times the
   /// normal impulse.
-  void brake(const BodyModel& body, const WorldInertia<R>& inverse, Vec<R>& spin) {
+  void brake(const BodyModel& body, const WorldInertia<R>& inverse, const LaneMask<R>& live,
+             Vec<R>& spin) {
     R press(0.0);
     for (int k = 0; k < count; ++k) press = press + points[k].impulse.z;
     const Vec<R> u = spin - spinTarget;
@@ -189,8 +208,8 @@ class ContactSolver {
     const R scale = select(size > roll, roll / laneMax(size, R(1e-300)), R(1.0));
     const R turn = press * R(body.surface.spinningFriction);
     next = {next.x * scale, next.y * scale, laneMax(R(0.0) - turn, laneMin(turn, next.z))};
-    spin = spin + inverse * (next - moment);
-    moment = next;
+    setWhere(live, spin, spin + inverse * (next - moment));
+    setWhere(live, moment, next);
   }
 };
 

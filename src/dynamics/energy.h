@@ -8,14 +8,15 @@
 namespace ifa {
 
 /// @param velocity  world frame, m/s. @param w  body frame, rad/s
-inline double kineticEnergy(const BodyModel& body, const Vec<double>& velocity,
-                            const Vec<double>& w) {
-  return 0.5 * (body.mass * dot(velocity, velocity) + body.inertia.x * w.x * w.x +
-                body.inertia.y * w.y * w.y + body.inertia.z * w.z * w.z);
+template <class R>
+R kineticEnergy(const BodyModel& body, const Vec<R>& velocity, const Vec<R>& w) {
+  return R(0.5) * (R(body.mass) * dot(velocity, velocity) + R(body.inertia.x) * w.x * w.x +
+                   R(body.inertia.y) * w.y * w.y + R(body.inertia.z) * w.z * w.z);
 }
 
-inline double totalEnergy(const BodyModel& body, const KernelState<double>& state) {
-  return kineticEnergy(body, state.velocity, state.w) + body.mass * kGravity * state.position.z;
+template <class R>
+R totalEnergy(const BodyModel& body, const KernelState<R>& state) {
+  return kineticEnergy(body, state.velocity, state.w) + R(body.mass * kGravity) * state.position.z;
 }
 
 inline double totalEnergy(const BodyModel& body, const RigidState& state) {

@@ -4,33 +4,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "dynamics/height_cubic.h"
+
 namespace ifa {
-
-namespace {
-
-/// A touch is found when the vertex is as near to the ground as this, m: the planner asks for its
-/// time to 1e-7 s.
-constexpr double kOnGround = 1e-11;
-
-}  // namespace
-
-KernelState<double> FlightSegment::computed(double t) const {
-  const Spin<double> spin = rotation_.at(t);
-  KernelState<double> s = start_;
-  s.time += t;
-  s.position = s.position + s.velocity * t;
-  s.position.z -= 0.5 * kGravity * t * t;
-  s.velocity.z -= kGravity * t;
-  s.q = spin.q;
-  s.w = spin.w;
-  return s;
-}
-
-/// Seconds in which the body, whatever its turn, is too high to touch; 0 when it is not.
-double FlightSegment::timeAbove() const {
-  const double over = start_.position.z - 1.0001 * body_.radius, rise = start_.velocity.z;
-  return over > 0 ? (rise + laneSqrt(rise * rise + 2 * kGravity * over)) / kGravity : 0;
-}
 
 /// Collects vertices whose lower end is under `dip`, from vertex `next` on, until kMostCandidates
 /// are found.
@@ -57,11 +33,9 @@ std::size_t FlightSegment::findLow(const Heights& a, const Heights& b, double di
 
 double FlightSegment::firstTouch() const {
   const KernelState<double> end = at(length_);
-  // A parabola is lowest at its ends; so is the sum of one and of what a vertex adds, but for the
-  // bend of its circle: |up''| <= 2 w^2 within a segment.
-  if (laneMin(start_.position.z, end.position.z) > body_.radius) return 2 * length_;
-  const Heights a(start_), b(end);
-  const double bend = 0.25 * length_ * length_ * body_.radius * spin2_;
+  if (laneMin(path_.start().position.z, end.position.z) > body_.radius) return 2 * length_;
+  const Heights a(path_.start()), b(end);
+  const double bend = path_.bend(length_);
   Candidate found[kMostCandidates];
   double first = 2;
   std::size_t lowest = 0;
@@ -83,23 +57,7 @@ double FlightSegment::firstTouch() const {
       }
     }
   }
-  return first > 1 ? 2 * length_ : refined(first * length_, lowest);
-}
-
-/// Newton steps on the exact motion, from the touch of a cubic.
-double FlightSegment::refined(double t, std::size_t vertex) const {
-  const Vec<double> p = place(vertex);
-  for (int i = 0; i < 3; ++i) {
-    lastTime_ = t;
-    last_ = computed(t);
-    const Heights heights(last_);
-    const double height = heights.height(p), rate = heights.rate(p);
-    if (rate > -1e-4 || std::fabs(height) < kOnGround) break;
-    const double next = t - height / rate;
-    if (!(next > 0 && next < length_)) break;
-    t = next;
-  }
-  return t;
+  return first > 1 ? 2 * length_ : path_.refined(first * length_, place(lowest), length_, last_);
 }
 
 }  // namespace ifa

@@ -1,19 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // The number type over which the kernel is written once: one lane is a double, many lanes a wide
 // register. Only operations whose bits are the same on every processor are offered (+ - * / sqrt,
-// comparisons).
+// comparisons). Conditions are masks, with & | and !, so that what a lane gets does not depend on
+// its neighbours: every lane may go through both branches, and keeps what its own condition says. A
+// loop goes on until no lane is live, and leaves those alone that are not. A branch that no lane
+// needs may be left out (anyLane): that saves time and changes no bit.
 #pragma once
 
 #include <cmath>
 
 namespace ifa {
 
-/// Mask type of a lane type.
+/// Mask type and number of lanes of a lane type. Mask(true) has all lanes set; a lane type made of
+/// nothing, R(), is 0.
 template <class R>
 struct LaneTraits;
 template <>
 struct LaneTraits<double> {
   using Mask = bool;
+  static constexpr int kLanes = 1;
 };
 template <class R>
 using LaneMask = typename LaneTraits<R>::Mask;
@@ -24,6 +29,12 @@ inline double laneMin(double a, double b) { return a < b ? a : b; }
 inline double laneMax(double a, double b) { return a > b ? a : b; }
 inline double laneSqrt(double a) { return std::sqrt(a); }
 inline double laneAbs(double a) { return std::fabs(a); }
+
+/// Gives `target` a new value in the lanes of `mask`.
+template <class M, class T>
+void setWhere(const M& mask, T& target, const T& value) {
+  target = select(mask, value, target);
+}
 
 /// A vector of three lanes.
 template <class R>

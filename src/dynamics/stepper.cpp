@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "dynamics/energy.h"
+#include "dynamics/height_cubic.h"
 #include "dynamics/impact_law.h"
+#include "dynamics/midpoint_step.h"
 #include "dynamics/support.h"
 
 namespace ifa {
@@ -24,8 +26,6 @@ constexpr double kTouchingSpeed = 5e-3;
 constexpr double kHeld = 0.03;
 /// ... and at rest, balanced on an edge to the last bit, after so long, s.
 constexpr double kBalanced = 2;
-/// Impulses of a step are solved to this change of speed, m/s.
-constexpr double kPrecision = 3e-5;
 constexpr int kMostCuts = 4;
 constexpr double kShortestStep = 1e-6;  // s
 /// Longer steps are told in two halves, so that what listens and draws needs no more than this, s.
@@ -128,10 +128,9 @@ void Stepper::gatherHeld(double step) {
     const double gap = now_.gap[i];
     if (gap > far) continue;
     const double rate = now_.rate[i];
-    const bool held = gap <= body_.hitGap
-                          ? rate < kPartingSpeed
-                          : gap + (rate - fall) * step < 0 && rate * step >= -2 * gap &&
-                                rate >= -kLandingSpeed;
+    const bool held = gap <= body_.hitGap ? rate < kPartingSpeed
+                                          : gap + (rate - fall) * step < 0 &&
+                                                rate * step >= -2 * gap && rate >= -kLandingSpeed;
     if (held) chosen_.push_back(i);
   }
 }
@@ -144,10 +143,10 @@ void Stepper::addPoints() {
   solver_.count = 0;
   for (const std::size_t i : chosen_) {
     ContactPoint<double>& p = solver_.points[solver_.count++];
-    p.vertex = watch_.vertex(i);
+    p.place = watch_.place(i);
     p.gap = now_.gap[i];
     p.rate = now_.rate[i];
-    p.r = rotation_ * watch_.place(i);
+    p.r = rotation_ * p.place;
     p.impulse = {};
   }
 }
@@ -156,8 +155,8 @@ Advance Stepper::impact() {
   gatherHits();
   addPoints();
   before_ = state_;
-  const Impact after =
-      solveImpact(body_, rotation_, restitution_, state_.velocity, state_.w, solver_);
+  const ImpactLaw<double> law(body_, rotation_, state_.velocity, state_.w);
+  const Impact<double> after = law.solve(restitution_, solver_);
   state_.velocity = after.velocity;
   state_.w = after.w;
   impulse_ = after.impulse;
@@ -186,55 +185,9 @@ void Stepper::warmStart(double step) {
   for (int k = 0; k < solver_.count; ++k) {
     for (int j = 0; j < lastCount_; ++j) {
       const auto& old = last_[static_cast<std::size_t>(j)];
-      if (old.vertex == solver_.points[k].vertex) solver_.points[k].impulse = old.impulse * scale;
+      if (old.vertex == vertexOf(k)) solver_.points[k].impulse = old.impulse * scale;
     }
   }
-}
-
-/// Turns the arms to the middle of the step and says what velocity the points shall have there: on
-/// the way from the one they begin with to none at the end, or one that brings them down to the
-/// ground by then.
-void Stepper::aim(double step, const Rotation<double>& middle) {
-  const Vec<double> spin = rotation_ * state_.w;
-  for (int k = 0; k < solver_.count; ++k) {
-    ContactPoint<double>& p = solver_.points[k];
-    const Vec<double> v = state_.velocity + cross(spin, p.r);
-    double sink = 0;
-    if (p.gap > body_.hitGap) {
-      sink = -p.gap / step;
-    } else if (p.gap > -body_.hitGap) {
-      sink = laneMin(0.5 * p.rate, 0);
-    }
-    p.target = {0.5 * v.x, 0.5 * v.y, sink};
-    p.r = middle * watch_.place(chosen_[static_cast<std::size_t>(k)]);
-  }
-  solver_.spinTarget = spin * 0.5;
-}
-
-/// Goes on for `step` with the velocities of its middle (`spin` in the body frame); those of its
-/// end lie as far beyond, and its angular momentum is `momentum`.
-void Stepper::move(double step, const Vec<double>& velocity, const Vec<double>& spin,
-                   const Vec<double>& momentum) {
-  state_.time += step;
-  state_.position = state_.position + velocity * step;
-  state_.velocity = velocity * 2.0 - state_.velocity;
-  state_.q = renormalised(state_.q + timesPure(state_.q, spin) * (0.5 * step));
-  rotation_ = Rotation<double>(state_.q);
-  state_.w = spinOfMomentum(body_, rotation_, momentum);
-}
-
-/// A step may gain a little, of the third order in its turn or where sweeps have not settled:
-/// nothing may come of that. What a body without speed cannot spend, it spends by height.
-void Stepper::spendGain(double energy0) {
-  const double moving = kineticEnergy(body_, state_.velocity, state_.w);
-  const double gain = moving + body_.mass * kGravity * state_.position.z - energy0;
-  kinetic_ = moving;
-  if (gain <= 0) return;
-  kinetic_ = laneMax(moving - gain, 0);
-  const double scale = moving > gain ? std::sqrt(kinetic_ / moving) : 0;
-  state_.velocity = state_.velocity * scale;
-  state_.w = state_.w * scale;
-  if (gain > moving) state_.position.z -= (gain - moving) / (body_.mass * kGravity);
 }
 
 /// Seconds until a vertex that was not held is at the ground, where it ends under it; else `step`.
@@ -242,48 +195,28 @@ double Stepper::overshoot(double step) const {
   double first = 1;
   for (std::size_t i = 0; i < watch_.count(); ++i) {
     if (next_.gap[i] >= -0.5 * body_.hitGap || now_.gap[i] <= body_.hitGap) continue;
-    bool held = false;
-    for (int k = 0; k < solver_.count; ++k) {
-      held = held || solver_.points[k].vertex == watch_.vertex(i);
-    }
-    if (held) continue;
+    if (std::find(chosen_.begin(), chosen_.end(), i) != chosen_.end()) continue;
     const HeightCubic<double> height(now_.gap[i], now_.rate[i], next_.gap[i], next_.rate[i], step);
     first = laneMin(first, height.firstTouch());
   }
   return first * step;
 }
 
-/// Solves a step by the implicit midpoint rule and takes it; false when nothing pushes.
+/// Solves a step and takes it; false when nothing pushes.
 bool Stepper::solveStep(double step) {
-  const Quat<double> halfway = state_.q + timesPure(state_.q, state_.w) * (0.25 * step);
-  const Rotation<double> middle(renormalised(halfway));
-  aim(step, middle);
   warmStart(step);
-  const WorldInertia<double> inverse(body_, middle);
-  const Vec<double> momentum = angularMomentum(body_, rotation_, state_.w);
-  Vec<double> velocity = state_.velocity, spin = inverse * momentum;
-  velocity.z -= 0.5 * kGravity * step;
-  solver_.solve(body_, inverse, body_.settings.iterations, kPrecision * body_.mass, velocity, spin);
-  impulse_ = solver_.total() * 2.0;
+  const Midpoint<double> middle = solveMidpoint(body_, state_, rotation_, step, solver_);
+  impulse_ = middle.impulse;
   if (impulse_.z <= 0 && stuck_ < 100) return false;
-  move(step, velocity, middle.transposed(spin), momentum + solver_.totalTurn() * 2.0);
+  moveByMidpoint(body_, middle, step, state_, rotation_);
   return true;
 }
 
-/// Makes the state in the middle of a long step one through which energy falls: of two velocities
-/// the mean has less energy than they have on average, and what is missing goes into height (in
-/// free fall that is the height of the parabola over its chord). False where that is too much.
+/// Makes the state in the middle of a long step. False where it would be moved too much.
 bool Stepper::halve(double step, double energy0) {
   if (step <= kLongestPiece) return true;
-  middle_ = {before_.time + 0.5 * step, (before_.position + state_.position) * 0.5,
-             renormalised((before_.q + state_.q) * 0.5), (before_.velocity + state_.velocity) * 0.5,
-             (before_.w + state_.w) * 0.5};
-  const double weight = body_.mass * kGravity;
-  const double energy1 = kinetic_ + weight * state_.position.z;
-  const double energy =
-      kineticEnergy(body_, middle_.velocity, middle_.w) + weight * middle_.position.z;
-  const double rise = (laneMin(laneMax(energy, energy1), energy0) - energy) / weight;
-  middle_.position.z += rise;
+  const double energy1 = kinetic_ + body_.mass * kGravity * state_.position.z;
+  const double rise = halveStep(body_, before_, energy0, state_, energy1, step, middle_);
   return std::abs(rise) <= kMostRise * body_.slop;
 }
 
@@ -291,7 +224,7 @@ bool Stepper::halve(double step, double energy0) {
 void Stepper::keep(double step) {
   std::swap(now_, next_);
   for (int k = 0; k < solver_.count; ++k) {
-    last_[static_cast<std::size_t>(k)] = {solver_.points[k].vertex, solver_.points[k].impulse};
+    last_[static_cast<std::size_t>(k)] = {vertexOf(k), solver_.points[k].impulse};
   }
   lastCount_ = solver_.count;
   lastMoment_ = solver_.moment;
@@ -310,7 +243,7 @@ Advance Stepper::contact(double limit) {
     if (chosen_.empty()) return lift();
     addPoints();
     if (!solveStep(step)) return lift();
-    spendGain(energy0);
+    kinetic_ = spendGain(body_, energy0, state_);
     const Vec<double>& up = rotation_.rows[2];
     watch_.measure(state_.position.z, state_.velocity.z, up, cross(up, state_.w), next_);
     double shorter = overshoot(step);

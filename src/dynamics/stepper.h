@@ -61,15 +61,15 @@ class Stepper {
   void gatherHits();
   void gatherHeld(double step);
   void addPoints();
-  void aim(double step, const Rotation<double>& middle);
   void warmStart(double step);
   bool solveStep(double step);
-  void move(double step, const Vec<double>& velocity, const Vec<double>& spin,
-            const Vec<double>& momentum);
-  void spendGain(double energy0);
   void keep(double step);
   bool halve(double step, double energy0);
   Advance finish();
+  /// Hull vertex of point `k` of solver_.
+  [[nodiscard]] int vertexOf(int k) const {
+    return watch_.vertex(chosen_[static_cast<std::size_t>(k)]);
+  }
   [[nodiscard]] double overshoot(double step) const;
   [[nodiscard]] bool settled();
 
@@ -78,7 +78,7 @@ class Stepper {
   Phase phase_ = Phase::kFlight;
   KernelState<double> state_, before_;
   KernelState<double> middle_, end_;  ///< of a long step
-  Rotation<double> rotation_;  ///< of state_, when seen_
+  Rotation<double> rotation_;         ///< of state_, when seen_
   GroundWatch watch_;
   GroundFrame now_, next_;  ///< of state_, when seen_; of the step's end
   bool seen_ = false;
