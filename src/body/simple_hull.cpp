@@ -94,9 +94,13 @@ class Surface {
 
 template <class Measure>
 std::size_t furthest(const std::vector<Vector3d>& corners, Measure measure) {
-  const auto less = [&](const Vector3d& a, const Vector3d& b) { return measure(a) < measure(b); };
-  return static_cast<std::size_t>(std::max_element(corners.begin(), corners.end(), less) -
-                                  corners.begin());
+  std::size_t best = 0;
+  double most = -HUGE_VAL;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const double value = measure(corners[i]);
+    if (value > most) most = value, best = i;
+  }
+  return best;
 }
 
 // Corners that span as much as four can.
