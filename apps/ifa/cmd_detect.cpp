@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "command.h"
@@ -36,6 +37,11 @@ void showTable(Console& console, const std::vector<DetectedContact>& contacts,
 }
 
 int runDetect(const DetectOptions& options, CommandContext& context) {
+  std::error_code code;
+  if (std::filesystem::equivalent(options.sound, options.output, code)) {
+    return context.fail({ErrorCode::kUsage, "the sound would be overwritten",
+                         options.output.string(), "name another file with -o"});
+  }
   const auto sound = readSound(options.sound);
   if (!sound) return context.fail(sound.error());
   auto contacts = detectContacts(*sound, options.settings);
@@ -68,12 +74,12 @@ void addDetectCommand(CLI::App& app, CommandContext& context) {
   command
       ->add_option("--min-rise", options->settings.minRise,
                    "dB; higher finds fewer, surer contacts")
-      ->check(CLI::Range(1.0, 40.0))
+      ->check(numberFrom(1, 40))
       ->capture_default_str();
   command
       ->add_option("--range", options->settings.range,
                    "dB under the loudest contact where listening stops")
-      ->check(CLI::Range(1.0, 100.0))
+      ->check(numberFrom(1, 100))
       ->capture_default_str();
   command->callback([options, &context] {
     context.action = [options, &context] { return runDetect(*options, context); };

@@ -66,7 +66,7 @@ void addOptions(CLI::App& command, EvaluateOptions& options) {
   command.add_option("--planner", settings.planner, "which planner")->capture_default_str();
   command.add_option("--seed", settings.seed, "of the searches")->capture_default_str();
   command.add_option("--time-limit", settings.timeLimitSeconds, "seconds per case (0: none)")
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(numberFrom(0, 1e6));
   command.add_option("--jobs", settings.jobs, "cases at a time; wall times suffer")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();

@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "body/mesh_import.h"
 #include "body/mesh_report.h"
 #include "body/new_object.h"
 #include "body/object_file.h"
+#include "body/simple_hull.h"
 #include "command.h"
 
 namespace ifa::cli {
@@ -25,6 +28,7 @@ struct ObjectsOptions {
   double mass = 0, density = 0;
   double restitution = 0.6, friction = 0.4;
   bool shell = false, replace = false;
+  std::string making;  ///< an option that is given and makes sense with an output only
 };
 
 Eigen::Vector3d extentOf(const Mesh& mesh) { return inspectMesh(mesh).extent; }
@@ -54,9 +58,20 @@ std::string surfaceText(const SurfaceProperties& surface) {
   return text;
 }
 
+std::string counted(std::size_t count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
 // The parts of a long line that belong to its label stand in one column.
 std::string row(const std::string& label, const std::string& text) {
   return fmt::format("  {:<16}{}\n", label, text);
+}
+
+std::string hullText(std::size_t vertices, std::size_t exactVertices, double deviation) {
+  std::string text = fmt::format("{} vertices", vertices);
+  if (exactVertices <= vertices) return text;
+  return text + fmt::format(", simplified from {}: at most {:.2g} mm inside the mesh",
+                            exactVertices, 1e3 * deviation);
 }
 
 std::string bodyText(const Body& body) {
@@ -74,9 +89,10 @@ std::string bodyText(const Body& body) {
   const Eigen::Vector3d centre = 1e3 * body.centreOfMass;
   text += row("centre of mass", fmt::format("{:.3f}, {:.3f}, {:.3f} mm in the mesh's frame",
                                             centre.x(), centre.y(), centre.z()));
-  text += row("mesh", fmt::format("{} triangles, {} materials", body.mesh.triangles.size(),
-                                  body.mesh.materials.size()));
-  text += row("convex hull", fmt::format("{} vertices", body.hull.size()));
+  text += row("mesh", counted(body.mesh.triangles.size(), "triangle") + ", " +
+                          counted(body.mesh.materials.size(), "material"));
+  text +=
+      row("convex hull", hullText(body.hull.size(), body.exactHullVertices, body.hullDeviation));
   for (const auto& [name, surface] : d.surfaces) {
     text +=
         row((name == d.defaultSurface ? "on " + name + " *" : "on " + name), surfaceText(surface));
@@ -112,13 +128,18 @@ int showObject(const ObjectsOptions& options, CommandContext& context) {
   return context.succeed();
 }
 
-std::string reportText(const fs::path& path, const std::string& units, const MeshReport& report) {
+std::string reportText(const fs::path& path, const std::string& units, const MeshReport& report,
+                       const std::optional<SimpleHull>& hull) {
   std::string text = fmt::format("{} (in {})\n", path.string(), units);
   text += row("size", sizeText(report.extent));
-  text += row("mesh", fmt::format("{} triangles, {} vertices", report.triangles, report.vertices));
+  text += row("mesh", fmt::format("{}, {} vertices", counted(report.triangles, "triangle"),
+                                  report.vertices));
   text += row("surface", fmt::format("{:.4g} cm^2", 1e4 * report.area));
   if (report.solid())
     text += row("volume", fmt::format("{:.4g} cm^3", 1e6 * std::abs(report.volume)));
+  if (hull) {
+    text += row("convex hull", hullText(hull->corners.size(), hull->exactCorners, hull->deviation));
+  }
   for (const MeshProblem& problem : report.problems) {
     const char* kind = problem.severity == ProblemSeverity::kNote ? "note" : "problem";
     text += row(kind, fmt::format("{} ({})", problem.message, problem.remedy));
@@ -135,10 +156,18 @@ int inspect(const ObjectsOptions& options, CommandContext& context) {
   const auto mesh = importMesh(options.what, metresPerUnit(units));
   if (!mesh) return context.fail(mesh.error());
   const MeshReport report = inspectMesh(*mesh);
-  context.console.result(reportText(options.what, units, report));
-  if (report.usable()) return context.succeed();
-  const MeshProblem& worst = report.problems.front();
-  return context.fail({ErrorCode::kBadInput, worst.message, options.what, worst.remedy});
+  if (!report.usable()) {
+    context.console.result(reportText(options.what, units, report, {}));
+    const MeshProblem& worst = report.problems.front();
+    return context.fail({ErrorCode::kBadInput, worst.message, options.what, worst.remedy});
+  }
+  auto hull = hullForPhysics(mesh->vertices);
+  if (!hull) {
+    hull.error().place = options.what;
+    return context.fail(hull.error());
+  }
+  context.console.result(reportText(options.what, units, report, *hull));
+  return context.succeed();
 }
 
 int make(const ObjectsOptions& options, CommandContext& context) {
@@ -164,13 +193,6 @@ int make(const ObjectsOptions& options, CommandContext& context) {
   for (const MeshProblem& problem : inspectMesh(body->mesh).problems) {
     context.console.warn(problem.message + " (" + problem.remedy + ")");
   }
-  constexpr std::size_t kQuickHull = 1000;
-  if (body->hull.size() > kQuickHull) {
-    context.console.warn(
-        fmt::format("its hull has {} vertices, which makes every simulation slow "
-                    "(simplify the mesh; a hundred are plenty)",
-                    body->hull.size()));
-  }
   context.console.result(bodyText(*body));
   return context.succeed(options.output);
 }
@@ -183,6 +205,10 @@ bool isObject(const std::string& what) {
 }
 
 int runObjects(const ObjectsOptions& options, CommandContext& context) {
+  if (options.output.empty() && !options.making.empty()) {
+    return context.fail({ErrorCode::kUsage, "is for making an object, and no object file is named",
+                         options.making, "add -o NAME.json"});
+  }
   if (options.what.empty()) {
     if (options.output.empty()) return listLibrary(context);
     return context.fail({ErrorCode::kUsage, "no mesh was named", "-o", "ifa objects MESH -o FILE"});
@@ -200,17 +226,21 @@ void addObjectsCommand(CLI::App& app, CommandContext& context) {
   command->add_option("object", options->what, "name, object file or mesh file");
   command->add_option("--units", options->units, "units of the mesh file: m, cm, mm or in")
       ->check(CLI::IsMember({"m", "cm", "mm", "in"}));
-  command->add_option("--density", options->density, "kg/m^3, or kg/m^2 with --shell")
-      ->check(CLI::Range(1e-3, 3e4));
-  command->add_option("--mass", options->mass, "kg")->check(CLI::Range(1e-6, 1e3));
-  command->add_flag("--shell", options->shell, "a thin shell instead of a solid");
-  command->add_option("--restitution", options->restitution, "of the new object (0.6)")
-      ->check(CLI::Range(0.0, 0.95));
-  command->add_option("--friction", options->friction, "of the new object (0.4)")
-      ->check(CLI::Range(0.0, 2.0));
+  const std::vector<CLI::Option*> forMaking = {
+      command->add_option("--density", options->density, "kg/m^3, or kg/m^2 with --shell")
+          ->check(numberFrom(1e-3, 3e4)),
+      command->add_option("--mass", options->mass, "kg")->check(numberFrom(1e-6, 1e3)),
+      command->add_flag("--shell", options->shell, "a thin shell instead of a solid"),
+      command->add_option("--restitution", options->restitution, "of the new object (0.6)")
+          ->check(numberFrom(0, 0.95)),
+      command->add_option("--friction", options->friction, "of the new object (0.4)")
+          ->check(numberFrom(0, 2)),
+      command->add_flag("--force", options->replace, "overwrite files that exist")};
   command->add_option("-o,--output", options->output, "object file to make of the mesh");
-  command->add_flag("--force", options->replace, "overwrite files that exist");
-  command->callback([options, &context] {
+  command->callback([options, forMaking, &context] {
+    for (const CLI::Option* option : forMaking) {
+      if (option->count() > 0) options->making = option->get_name();
+    }
     context.action = [options, &context] { return runObjects(*options, context); };
   });
 }

@@ -36,6 +36,9 @@ struct CommandContext {
   [[nodiscard]] int succeed(const std::string& output = {});
 };
 
+/// Accepts numbers from `low` to `high`. CLI::Range lets "nan" through.
+[[nodiscard]] CLI::Validator numberFrom(double low, double high);
+
 void addSyncCommand(CLI::App& app, CommandContext& context);
 void addDetectCommand(CLI::App& app, CommandContext& context);
 void addObjectsCommand(CLI::App& app, CommandContext& context);

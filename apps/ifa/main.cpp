@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The command line: reads the arguments and hands them to one cmd_*.cpp per subcommand.
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
@@ -111,6 +113,16 @@ int CommandContext::fail(const Error& error) {
 int CommandContext::succeed(const std::string& output) {
   console.success(output);
   return 0;
+}
+
+CLI::Validator numberFrom(double low, double high) {
+  const auto complaint = [low, high](const std::string& text) {
+    double value = 0;
+    const bool good = CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
+    return good ? std::string()
+                : fmt::format("{} is not a number from {:g} to {:g}", text, low, high);
+  };
+  return {complaint, fmt::format("FLOAT in [{:g} - {:g}]", low, high), "number"};
 }
 
 }  // namespace ifa::cli

@@ -12,7 +12,7 @@ struct SignatureEvent {
   double duration = 0;   ///< s; 0 for a discrete event
   double amplitude = 1;  ///< relative to the first event's
   double centroid = 0;   ///< eq. 8, s after the event's start; 0 for a discrete event
-  double weight = 1;     ///< 1: must be met; less: may be dropped at that price
+  double weight = 1;  ///< 1: must be met; less: may be dropped at that price, save first and last
 };
 
 /// Contact-time signature (IFA section 3): events in order of time, the first at 0.

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
@@ -83,7 +84,9 @@ struct Body {
   ObjectDefinition definition;
   Mesh mesh;                          ///< body frame
   std::vector<Eigen::Vector3d> hull;  ///< vertices of the convex hull, body frame
-  double mass = 0;                    ///< kg
+  std::size_t exactHullVertices = 0;  ///< more than `hull` has where that was simplified
+  double hullDeviation = 0;  ///< how far the exact hull reaches beyond a simplified one at most, m
+  double mass = 0;           ///< kg
   Eigen::Vector3d centreOfMass = Eigen::Vector3d::Zero();           ///< in the mesh file's frame, m
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Identity();            ///< body frame, kg m^2
   Eigen::Vector3d principalMoments = Eigen::Vector3d::Ones();       ///< kg m^2, ascending

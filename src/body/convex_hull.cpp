@@ -4,85 +4,14 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <memory>
-#include <optional>
-#include <string>
 
-extern "C" {
-#include <libqhull_r/qhull_ra.h>
-}
+#include "body/qhull.h"
 
 namespace ifa {
 
 using Eigen::Vector3d;
 
 namespace {
-
-/// A corner of the hull, the corners that share a facet with it, and the mean of those facets'
-/// outward normals.
-struct Corner {
-  int point = 0;
-  std::vector<int> neighbours;
-  Vector3d outward = Vector3d::Zero();
-};
-
-/// Owns qhull's state, which is plain C, and the stream that catches its messages.
-class Qhull {
- public:
-  explicit Qhull(std::vector<double>& coordinates) : errors_(open_memstream(&text_, &length_)) {
-    qh_zero(&qh_, errors_);
-    char options[] = "qhull";
-    failed_ = qh_new_qhull(&qh_, 3, static_cast<int>(coordinates.size() / 3), coordinates.data(),
-                           False, options, nullptr, errors_) != 0;
-  }
-  ~Qhull() {
-    qh_freeqhull(&qh_, !qh_ALL);
-    int longBlocks = 0, longBytes = 0;
-    qh_memfreeshort(&qh_, &longBlocks, &longBytes);
-    std::fclose(errors_);
-    std::free(text_);
-  }
-  Qhull(const Qhull&) = delete;
-  Qhull& operator=(const Qhull&) = delete;
-
-  [[nodiscard]] bool failed() const { return failed_; }
-  [[nodiscard]] std::vector<Corner> corners();
-
- private:
-  qhT qh_ = {};
-  char* text_ = nullptr;
-  std::size_t length_ = 0;
-  std::FILE* errors_;
-  bool failed_ = false;
-};
-
-std::vector<Corner> Qhull::corners() {
-  std::vector<Corner> all;
-  qhT* qh = &qh_;
-  qh_vertexneighbors(qh);
-  vertexT* vertex = nullptr;
-  FORALLvertices {
-    Corner corner;
-    corner.point = qh_pointid(qh, vertex->point);
-    facetT *neighbor = nullptr, **neighborp = nullptr;
-    FOREACHneighbor_(vertex) {
-      corner.outward += Vector3d(neighbor->normal[0], neighbor->normal[1], neighbor->normal[2]);
-      vertexT *other = nullptr, **otherp = nullptr;
-      FOREACHsetelement_(vertexT, neighbor->vertices, other) {
-        if (other != vertex) corner.neighbours.push_back(qh_pointid(qh, other->point));
-      }
-    }
-    std::sort(corner.neighbours.begin(), corner.neighbours.end());
-    corner.neighbours.erase(std::unique(corner.neighbours.begin(), corner.neighbours.end()),
-                            corner.neighbours.end());
-    all.push_back(std::move(corner));
-  }
-  std::sort(all.begin(), all.end(),
-            [](const Corner& a, const Corner& b) { return a.point < b.point; });
-  return all;
-}
 
 /// How far a corner stands out beyond its neighbours in direction `direction` (not zero), m.
 double marginAlong(const Vector3d& direction, const std::vector<Vector3d>& toNeighbours) {
@@ -116,7 +45,7 @@ bool standsOut(const std::vector<Vector3d>& toNeighbours, double tolerance) {
   return false;
 }
 
-bool isTrueCorner(const Corner& corner, const std::vector<Vector3d>& points, double tolerance) {
+bool isTrueCorner(const HullCorner& corner, const std::vector<Vector3d>& points, double tolerance) {
   std::vector<Vector3d> toNeighbours;
   for (int neighbour : corner.neighbours) {
     toNeighbours.push_back(points[static_cast<std::size_t>(neighbour)] -
@@ -130,25 +59,13 @@ bool isTrueCorner(const Corner& corner, const std::vector<Vector3d>& points, dou
   return toNeighbours.size() > kMostForFullSearch || standsOut(toNeighbours, tolerance);
 }
 
-std::optional<std::vector<Corner>> cornersOf(const std::vector<Vector3d>& points) {
-  std::vector<double> coordinates;
-  coordinates.reserve(points.size() * 3);
-  for (const Vector3d& point : points) {
-    const Vector3d p = point - points.front();  // no digits lost far from the origin
-    coordinates.insert(coordinates.end(), {p.x(), p.y(), p.z()});
-  }
-  const auto qhull = std::make_unique<Qhull>(coordinates);
-  if (qhull->failed()) return std::nullopt;
-  return qhull->corners();
-}
-
 // One round of leaving out corners, no two of which are neighbours: two that lie close together
 // would otherwise each be left out because of the other.
-std::vector<Vector3d> withoutFlatCorners(const std::vector<Corner>& corners,
+std::vector<Vector3d> withoutFlatCorners(const std::vector<HullCorner>& corners,
                                          const std::vector<Vector3d>& points, double tolerance) {
   std::vector<char> locked(points.size(), 0);
   std::vector<Vector3d> kept;
-  for (const Corner& corner : corners) {
+  for (const HullCorner& corner : corners) {
     const auto self = static_cast<std::size_t>(corner.point);
     if (locked[self] != 0 || isTrueCorner(corner, points, tolerance)) {
       kept.push_back(points[self]);
@@ -175,7 +92,7 @@ Result<std::vector<Vector3d>> convexHull(const std::vector<Vector3d>& points,
   if (points.size() < 4 || !(size > 0)) return flat();
   std::vector<Vector3d> remaining = points;
   for (;;) {
-    const auto corners = cornersOf(remaining);
+    const auto corners = hullCorners(remaining);
     if (!corners) return flat();
     std::vector<Vector3d> kept = withoutFlatCorners(*corners, remaining, relativeTolerance * size);
     if (kept.size() < 4) return flat();

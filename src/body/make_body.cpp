@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "body/convex_hull.h"
 #include "body/mass_properties.h"
 #include "body/mesh_import.h"
 #include "body/mesh_report.h"
 #include "body/object_file.h"
+#include "body/simple_hull.h"
 
 namespace ifa {
 
@@ -74,13 +74,15 @@ void setMassProperties(Body& body, const MassProperties& properties) {
 }
 
 Result<void> setHull(Body& body, const std::vector<Vector3d>& points, const std::string& place) {
-  auto hull = convexHull(points);
+  auto hull = hullForPhysics(points);
   if (!hull) {
     Error error = hull.error();
     error.place = place;
     return tl::unexpected(error);
   }
-  body.hull = std::move(*hull);
+  body.hull = std::move(hull->corners);
+  body.exactHullVertices = hull->exactCorners;
+  body.hullDeviation = hull->deviation;
   for (Vector3d& corner : body.hull) {
     corner -= body.centreOfMass;
     body.radius = std::max(body.radius, corner.norm());

@@ -127,7 +127,7 @@ class ProblemList {
     const double size = report_.extent.maxCoeff();
     if (report_.degenerateTriangles > 0) {
       add(ProblemSeverity::kNote,
-          fmt::format("{} degenerate triangle{} (no area)", report_.degenerateTriangles,
+          fmt::format("{} degenerate triangle{}, without area", report_.degenerateTriangles,
                       report_.degenerateTriangles == 1 ? "" : "s"),
           "they do no harm to the physics");
     }

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/file.h"
+#include "body/field_reader.h"
 #include "body/object_file.h"
 
 namespace ifa {
@@ -20,96 +21,9 @@ constexpr std::size_t kMaxObjectBytes = 1 << 20;
 constexpr std::size_t kMaxEntries = 64;  ///< surfaces, faces or parts of one object
 constexpr std::size_t kMaxName = 64;
 
-struct Range {
-  double low, high;
-};
-constexpr Range kMass{1e-6, 1e3}, kDensity{1e-3, 3e4}, kRestitution{0, 0.95}, kFriction{0, 2},
+constexpr NumberRange kMass{1e-6, 1e3}, kDensity{1e-3, 3e4}, kRestitution{0, 0.95}, kFriction{0, 2},
     kRollingFriction{0, 0.1}, kReferenceImpulse{0, 1e3}, kCone{0, 90}, kSpeed{0, 100},
     kSpin{0, 1e3}, kMergeGap{0, 1};
-
-/// Takes fields out of one JSON object. The first thing that is wrong is kept in `error` and
-/// everything after it gives defaults, so that a reader can be one straight list of fields.
-class FieldReader {
- public:
-  FieldReader(const Json& json, std::string file, std::string prefix, std::optional<Error>& error)
-      : json_(json), file_(std::move(file)), prefix_(std::move(prefix)), error_(error) {}
-
-  void fail(const std::string& field, std::string message, std::string remedy = {}) const {
-    if (error_) return;
-    const std::string path =
-        prefix_.empty() || field.empty() ? prefix_ + field : prefix_ + "." + field;
-    error_ =
-        Error{ErrorCode::kBadInput, std::move(message), file_ + ": " + path, std::move(remedy)};
-  }
-
-  [[nodiscard]] bool has(const char* field) const { return json_.contains(field); }
-
-  [[nodiscard]] std::string text(const char* field, bool required = true,
-                                 std::size_t longest = 200) const {
-    if (!has(field)) {
-      if (required) fail(field, "is missing");
-      return {};
-    }
-    if (!json_[field].is_string()) return fail(field, "must be text in quotes"), std::string{};
-    const auto value = json_[field].get<std::string>();
-    if (value.size() > longest) fail(field, fmt::format("is longer than {} characters", longest));
-    if (required && value.empty()) fail(field, "is empty");
-    return value;
-  }
-
-  [[nodiscard]] double number(const char* field, Range range) const {
-    if (!has(field)) return fail(field, "is missing"), range.low;
-    return checked(field, json_[field], range);
-  }
-
-  [[nodiscard]] double number(const char* field, Range range, double otherwise) const {
-    return has(field) ? checked(field, json_[field], range) : otherwise;
-  }
-
-  [[nodiscard]] std::array<double, 2> interval(const char* field, Range range,
-                                               std::array<double, 2> otherwise) const {
-    if (!has(field)) return otherwise;
-    const Json& pair = json_[field];
-    if (!pair.is_array() || pair.size() != 2) {
-      return fail(field, "must be two numbers, smallest and largest"), otherwise;
-    }
-    const std::array<double, 2> value = {checked(field, pair[0], range),
-                                         checked(field, pair[1], range)};
-    if (value[0] > value[1]) fail(field, "has its larger number first");
-    return value;
-  }
-
-  /// A reader of the object inside `field`.
-  [[nodiscard]] FieldReader inside(const char* field) const {
-    if (!json_[field].is_object()) fail(field, "must be an object in braces");
-    return {json_[field].is_object() ? json_[field] : empty(), file_, path(field), error_};
-  }
-
-  [[nodiscard]] std::string path(const std::string& field) const {
-    return prefix_.empty() ? field : prefix_ + "." + field;
-  }
-  [[nodiscard]] const Json& json() const { return json_; }
-  [[nodiscard]] std::optional<Error>& error() const { return error_; }
-  [[nodiscard]] const std::string& file() const { return file_; }
-
- private:
-  [[nodiscard]] double checked(const char* field, const Json& value, Range range) const {
-    if (!value.is_number()) return fail(field, "must be a number"), range.low;
-    const double number = value.get<double>();
-    if (std::isfinite(number) && number >= range.low && number <= range.high) return number;
-    fail(field, fmt::format("{:g} is not between {:g} and {:g}", number, range.low, range.high));
-    return range.low;
-  }
-
-  static const Json& empty() {
-    static const Json object = Json::object();
-    return object;
-  }
-
-  const Json& json_;
-  std::string file_, prefix_;
-  std::optional<Error>& error_;
-};
 
 bool isPlainName(const std::string& name) {
   return !name.empty() && name.size() <= kMaxName && name.front() != '.' &&
@@ -202,9 +116,7 @@ void readParts(const FieldReader& reader, ObjectDefinition& definition) {
     return reader.fail("parts", "must be a list of 1 to 64 parts");
   }
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const std::string name = fmt::format("parts[{}]", i);
-    if (!list[i].is_object()) return reader.fail(name, "must be an object in braces");
-    const FieldReader inside(list[i], reader.file(), reader.path(name), reader.error());
+    const FieldReader inside = reader.inside(fmt::format("parts[{}]", i), list[i]);
     ObjectPart part;
     part.meshFile = inside.text("mesh");
     part.meshPath = besideFile(definition.path, part.meshFile);

@@ -67,6 +67,7 @@ Body scaledBody(Body body, double factor) {
   const double volume = factor * factor * factor;
   for (Eigen::Vector3d& vertex : body.mesh.vertices) vertex *= factor;
   for (Eigen::Vector3d& vertex : body.hull) vertex *= factor;
+  body.hullDeviation *= factor;
   body.mass *= volume;
   body.definition.mass *= volume;
   body.centreOfMass *= factor;

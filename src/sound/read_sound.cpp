@@ -9,6 +9,7 @@
 #include <string>
 #include <system_error>
 
+#include "sound/quiet_stderr.h"
 #include "sound/sound.h"
 
 namespace ifa {
@@ -152,6 +153,7 @@ std::vector<float> downmix(const std::vector<float>& values, std::size_t channel
 Result<Sound> readSound(const std::filesystem::path& path, const SoundLimits& limits) {
   const std::string place = path.string();
   if (auto good = checkPath(path); !good) return tl::unexpected<Error>(good.error());
+  const QuietStderr quiet;
   SF_INFO info{};
   const File file(sf_open(path.c_str(), SFM_READ, &info), &sf_close);
   if (!file) {
