@@ -13,16 +13,16 @@ namespace ifa {
 
 /// Limits of the audit. The defaults are those of docs/audit.md.
 struct AuditSettings {
-  double startError = 1e-4;       ///< contact starts against targets, s
-  double flightPosition = 1e-6;   ///< flight predicted from the previous sample, m
-  double flightAngle = 1e-5;      ///< likewise, rad
-  double flightVelocity = 1e-4;   ///< likewise, m/s
-  double angularMomentum = 1e-6;  ///< relative change over a flight
-  double frictionMargin = 0.02;   ///< share by which an impulse may leave the friction cone
-  double energyRounding = 1e-6;   ///< relative; what counts as no gain of energy
+  double startError = 1e-4;             ///< contact starts against targets, s
+  double flightPosition = 1e-6;         ///< flight predicted from the previous sample, m
+  double flightAngle = 1e-5;            ///< likewise, rad
+  double flightVelocity = 1e-4;         ///< likewise, m/s
+  double angularMomentum = 1e-6;        ///< relative change over a flight
+  double frictionMargin = 0.02;         ///< share by which an impulse may leave the friction cone
+  double energyRounding = 1e-6;         ///< relative; what counts as no gain of energy
   double audibleShare = kAudibleShare;  ///< threshold of hearing as a share of J_ref (method, 2)
-  double noiseTime = 1e-6;        ///< impulses under m g times this are rounding, s
-  double restDrift = 1e-9;        ///< m and rad, pose while at rest
+  double noiseTime = 1e-6;              ///< impulses under m g times this are rounding, s
+  double restDrift = 1e-9;              ///< m and rad, pose while at rest
 };
 
 /// One check: passed when `worst` is not above `limit`.

@@ -11,7 +11,8 @@
 namespace ifa {
 
 void parallelFor(std::size_t count, const std::function<void(std::size_t)>& body) {
-  // One at a time: what is done here takes long, and some of it a hundred times as long as the rest.
+  // One at a time: what is done here takes long, and some of it a hundred times as long as the
+  // rest.
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, count),
       [&](const tbb::blocked_range<std::size_t>& range) {

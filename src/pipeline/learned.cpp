@@ -87,12 +87,11 @@ Learned learnObject(const Body& body, const SurfaceProperties& surface, const fs
     settings.simulations = kImpulseDrops;
     heard.referenceImpulse = measureSurface(body, heard, settings).referenceImpulse;
   }
-  progress("learn", 0.3);
   const BodyModel model(body, heard);
-  const Learned learned{
-      heard.referenceImpulse,
-      EnergyOutlook::learn(body, model, audibleCut(body, heard), ShootingSettings().outlookDrops)};
-  if (!cache.empty()) write(file, key, learned);
+  const Learned learned{heard.referenceImpulse,
+                        EnergyOutlook::learn(body, model, audibleCut(body, heard),
+                                             ShootingSettings().outlookDrops, progress)};
+  if (!cache.empty() && !progress.stopRequested()) write(file, key, learned);
   progress("learn", 1);
   return learned;
 }

@@ -76,11 +76,16 @@ EnergyOutlook::Features EnergyOutlook::features(const std::vector<double>& start
 }
 
 EnergyOutlook EnergyOutlook::learn(const Body& body, const BodyModel& model,
-                                   const RecorderSettings& recorder, int drops) {
+                                   const RecorderSettings& recorder, int drops,
+                                   const Progress& progress) {
   std::vector<std::vector<Sample>> samples(static_cast<std::size_t>(drops));
-  parallelFor(samples.size(), [&](std::size_t i) {
-    samples[i] = samplesOfDrop(body, model, recorder, static_cast<std::uint64_t>(i));
-  });
+  constexpr std::size_t kTold = 50;  // drops between two reports
+  for (std::size_t begin = 0; begin < samples.size() && !progress.stopRequested(); begin += kTold) {
+    progress("learn", static_cast<double>(begin) / drops);
+    parallelFor(std::min(kTold, samples.size() - begin), [&](std::size_t i) {
+      samples[begin + i] = samplesOfDrop(body, model, recorder, begin + i);
+    });
+  }
   using Normal = Eigen::Matrix<double, kFeatures, kFeatures>;
   Normal normal = 1e-6 * Normal::Identity();
   Features right = Features::Zero();

@@ -7,6 +7,7 @@
 #include <array>
 #include <vector>
 
+#include "base/progress.h"
 #include "body/body.h"
 #include "dynamics/body_model.h"
 #include "ifa/contact_signature.h"
@@ -31,9 +32,11 @@ class EnergyOutlook {
   explicit EnergyOutlook(const Coefficients& known);
   [[nodiscard]] Coefficients coefficients() const;
 
-  /// Simulates `drops` drops from the body's own sampling.
+  /// Simulates `drops` drops from the body's own sampling. Reports as "learn"; when asked to stop,
+  /// what comes back is of no use.
   [[nodiscard]] static EnergyOutlook learn(const Body& body, const BodyModel& model,
-                                           const RecorderSettings& recorder, int drops);
+                                           const RecorderSettings& recorder, int drops,
+                                           const Progress& progress = {});
 
   /// Features of the events after number `k` of a rhythm (starts in s, impulses in N s), k not the
   /// last.

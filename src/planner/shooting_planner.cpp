@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 
@@ -177,7 +178,11 @@ Result<std::vector<Plan>> ShootingPlanner::plan(const PlanRequest& request,
   const auto late = [&] {
     return limit > 0 && std::chrono::duration<double>(Clock::now() - begin).count() > limit;
   };
-  const auto stop = [&] { return progress.stopRequested() || late(); };
+  std::atomic<bool> cut = false;
+  const auto stop = [&] {
+    if (late()) cut = true;
+    return cut || progress.stopRequested();
+  };
   progress("learn", 0);
   const ShootingProblem problem(request, settings_);
   Takes takes(problem);
@@ -210,9 +215,9 @@ Result<std::vector<Plan>> ShootingPlanner::plan(const PlanRequest& request,
         partial.begin(), partial.end(),
         [](const Plan& a, const Plan& b) { return a.contacts.size() < b.contacts.size(); });
     plans.push_back(longest != partial.end() ? *longest : Plan{});
-    if (late()) plans[0].failure = "the time limit was reached; " + plans[0].failure;
+    if (cut) plans[0].failure = "the time limit was reached; " + plans[0].failure;
   }
-  for (Plan& plan : plans) plan.timeLimitReached = late();
+  for (Plan& plan : plans) plan.timeLimitReached = cut;
   return plans;
 }
 

@@ -21,8 +21,8 @@ struct ShootingSettings {
   double energyBin = 0.3;      ///< width of a bin, in log(energy)
   double spread = 0.35;        ///< standard deviation of a change, in units of the plausible region
   double outlookWeight = 0.5;  ///< of the energy outlook beyond one standard deviation
-  /// Bends over this cost more than their factor, so much times the square of what is over: one ugly
-  /// contact is seen whatever the Score is.
+  /// Bends over this cost more than their factor, so much times the square of what is over: one
+  /// ugly contact is seen whatever the Score is.
   double largeBend = 0.9, bendAversion = 10;
   double hopeless = 8;  ///< log units that a motion without a way to the next contact loses in rank
   double restless = 4;  ///< and when it would not come to rest in the last contact
