@@ -26,14 +26,17 @@ struct SyncOptions {
 
 Result<std::set<OutputFormat>> parseFormats(const std::string& list) {
   static const std::map<std::string, OutputFormat> kKnown = {{"json", OutputFormat::kJson},
-                                                             {"glb", OutputFormat::kGlb}};
+                                                             {"glb", OutputFormat::kGlb},
+                                                             {"csv", OutputFormat::kCsv},
+                                                             {"usda", OutputFormat::kUsda}};
   std::set<OutputFormat> formats;
   for (const auto& name : CLI::detail::split(list, ',')) {
     const auto found = kKnown.find(name);
     if (found == kKnown.end()) {
       const std::string what = name == "mp4" ? "films (mp4) are not made by this version"
                                              : "\"" + name + "\" is not a format";
-      return tl::unexpected<Error>({ErrorCode::kUsage, what, "--formats", "choose from json, glb"});
+      return tl::unexpected<Error>(
+          {ErrorCode::kUsage, what, "--formats", "choose from json, glb, usda, csv"});
     }
     formats.insert(found->second);
   }
@@ -52,7 +55,8 @@ void showTake(Console& console, const Motion& motion, const fs::path& folder) {
   console.result(fmt::format("{} on {}: {}", motion.object.name, motion.object.surface,
                              motion.success ? describe(motion) : "no acceptable motion"));
   for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.path().stem() == "motion" || entry.path().stem() == "timeline" ||
+    const fs::path stem = entry.path().stem();
+    if (stem == "motion" || stem == "timeline" || stem == "contacts" ||
         entry.path().filename() == motion.sound.file) {
       console.result("  " + entry.path().string());
     }
@@ -156,7 +160,8 @@ void addSyncCommand(CLI::App& app, CommandContext& context) {
                    "seconds of flight before the first contact")
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();
-  command->add_option("--formats", options->formats, "list of json, glb")->capture_default_str();
+  command->add_option("--formats", options->formats, "list of json, glb, usda, csv")
+      ->capture_default_str();
   command->callback([options, &context] {
     context.action = [options, &context] { return runSync(*options, context); };
   });

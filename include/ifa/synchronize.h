@@ -47,6 +47,8 @@ struct Synchronization {
 enum class OutputFormat {
   kJson,  ///< motion.json
   kGlb,   ///< motion.glb
+  kCsv,   ///< motion.csv and contacts.csv
+  kUsda,  ///< motion.usda
 };
 
 /// Finds motions whose contacts fall on the contacts of the sound (docs/method.md).

@@ -6,7 +6,9 @@
 #include <string>
 
 #include "export/glb.h"
+#include "export/motion_csv.h"
 #include "export/motion_json.h"
+#include "export/usda.h"
 #include "pipeline/copy_object.h"
 #include "render/timeline.h"
 #include "sound/sound.h"
@@ -34,13 +36,25 @@ Result<void> writeSound(const fs::path& folder, const Motion& motion, const Hear
   return writeTimeline(folder / "timeline.svg", motion, used);
 }
 
+Result<void> writePictures(const fs::path& folder, const Motion& motion, const Body& body,
+                           const std::set<OutputFormat>& formats) {
+  Result<void> written;
+  if (formats.count(OutputFormat::kGlb) > 0)
+    written = writeGlb(folder / "motion.glb", motion, body);
+  if (written && formats.count(OutputFormat::kUsda) > 0) {
+    written = writeUsda(folder / "motion.usda", motion, body);
+  }
+  if (written && formats.count(OutputFormat::kCsv) > 0) written = writeCsv(folder, motion);
+  return written;
+}
+
 Result<void> writeTake(const fs::path& folder, const Motion& motion, const Body& body,
                        const Heard& heard, const std::set<OutputFormat>& formats) {
   if (auto written = copyObject(body.definition, folder); !written) return written;
   if (auto written = writeSound(folder, motion, heard); !written) return written;
   // A search that did not get to a first contact has nothing to show, only a reason.
-  if (formats.count(OutputFormat::kGlb) > 0 && !motion.trajectory.empty()) {
-    if (auto written = writeGlb(folder / "motion.glb", motion, body); !written) return written;
+  if (!motion.trajectory.empty()) {
+    if (auto written = writePictures(folder, motion, body, formats); !written) return written;
   }
   return writeMotionJson(folder / "motion.json", motion);
 }
@@ -80,7 +94,8 @@ Result<void> writeTakes(const fs::path& folder, const std::vector<Motion>& takes
 std::vector<fs::path> outputNames() {
   std::vector<fs::path> names;
   const auto add = [&](const fs::path& folder) {
-    for (const char* name : {"motion.json", "motion.glb", "timeline.svg", kSoundName}) {
+    for (const char* name : {"motion.json", "motion.glb", "motion.usda", "motion.csv",
+                             "contacts.csv", "timeline.svg", kSoundName}) {
       names.push_back(folder / name);
     }
   };

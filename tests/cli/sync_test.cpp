@@ -76,6 +76,19 @@ TEST_F(Sync, WritesAFolderThatStandsAlone) {
   EXPECT_EQ(runProgram({"verify", folder_ / "out/motion.json"}).exit, 0);
 }
 
+TEST_F(Sync, WritesTheFormatsThatAreAskedFor) {
+  ASSERT_EQ(runProgram(command("out", {"--formats", "csv,usda"})).exit, 0);
+  for (const char* name : {"motion.json", "motion.csv", "contacts.csv", "motion.usda"}) {
+    EXPECT_GT(fs::file_size(folder_ / "out" / name), 0U) << name;
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "out/motion.glb"));
+  EXPECT_NE(readText(folder_ / "out/motion.usda").find("@./sound.wav@"), std::string::npos);
+  // What an earlier run left and this one did not make would belong to another motion.
+  ASSERT_EQ(runProgram(command("out", {"--formats", "glb"})).exit, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "out/motion.csv"));
+  EXPECT_FALSE(fs::exists(folder_ / "out/motion.usda"));
+}
+
 // The one field that tells of this run and not of the motion.
 std::string withoutTiming(const std::string& text) {
   return std::regex_replace(text, std::regex("\"search_seconds\": *[-+.0-9e]+"), "");
