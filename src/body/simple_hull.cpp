@@ -106,10 +106,10 @@ std::size_t furthest(const std::vector<Vector3d>& corners, Measure measure) {
 // Corners that span as much as four can.
 std::vector<std::size_t> tetrahedron(const std::vector<Vector3d>& corners) {
   const std::size_t first = furthest(corners, [](const Vector3d& p) { return p.x(); });
-  const Vector3d a = corners[first];
+  const Vector3d& a = corners[first];
   const std::size_t second =
       furthest(corners, [&](const Vector3d& p) { return (p - a).squaredNorm(); });
-  const Vector3d b = corners[second];
+  const Vector3d& b = corners[second];
   const std::size_t third =
       furthest(corners, [&](const Vector3d& p) { return (b - a).cross(p - a).squaredNorm(); });
   const Vector3d normal = (b - a).cross(corners[third] - a);
