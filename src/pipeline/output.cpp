@@ -10,6 +10,7 @@
 #include "export/motion_json.h"
 #include "export/usda.h"
 #include "pipeline/copy_object.h"
+#include "pipeline/manifest.h"
 #include "render/timeline.h"
 #include "sound/sound.h"
 
@@ -56,7 +57,8 @@ Result<void> writeTake(const fs::path& folder, const Motion& motion, const Body&
   if (!motion.trajectory.empty()) {
     if (auto written = writePictures(folder, motion, body, formats); !written) return written;
   }
-  return writeMotionJson(folder / "motion.json", motion);
+  if (auto written = writeMotionJson(folder / "motion.json", motion); !written) return written;
+  return writeManifest(folder, motion);
 }
 
 std::string takeName(std::size_t index) { return "take-" + std::to_string(index + 1); }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
 
@@ -74,6 +75,27 @@ TEST_F(Sync, WritesAFolderThatStandsAlone) {
   EXPECT_GE(firstContact + begin, -1e-9);
   EXPECT_NEAR(found.at("sound").at("duration").get<double>(), 1.2 + firstContact - 0.2, 1e-4);
   EXPECT_EQ(runProgram({"verify", folder_ / "out/motion.json"}).exit, 0);
+}
+
+TEST_F(Sync, ListsWhatItWrote) {
+  ASSERT_EQ(runProgram(command("out", {"--formats", "glb,csv"})).exit, 0);
+  const auto manifest = json::parse(readText(folder_ / "out/manifest.json"));
+  EXPECT_EQ(manifest.at("object"), "Eraser");
+  EXPECT_TRUE(manifest.at("success").get<bool>());
+  std::map<std::string, std::string> roles;
+  for (const auto& file : manifest.at("files")) {
+    const std::string name = file.at("name");
+    EXPECT_EQ(fs::file_size(folder_ / "out" / name), file.at("bytes").get<std::size_t>()) << name;
+    roles[name] = file.at("role");
+  }
+  EXPECT_EQ(roles.at("motion.glb"), "animation");
+  EXPECT_EQ(roles.at("contacts.csv"), "contacts");
+  EXPECT_EQ(roles.at("Eraser.json"), "object");
+  std::size_t others = 0;
+  for (const auto& entry : fs::directory_iterator(folder_ / "out")) {
+    others += roles.count(entry.path().filename().string()) == 0 ? 1 : 0;
+  }
+  EXPECT_EQ(others, 1U) << "only the manifest itself is not listed";
 }
 
 TEST_F(Sync, WritesTheFormatsThatAreAskedFor) {
