@@ -71,7 +71,7 @@ struct Job {
   EnergyOutlook outlook;
 };
 
-Result<Job> prepare(const SynchronizeSettings& settings, const Progress& progress) {
+Result<Job> prepare(const SynchronizeSettings& settings) {
   if (auto good = checkSettings(settings); !good) return tl::unexpected(good.error());
   auto planner = makePlanner(settings.planner);
   if (!planner) return tl::unexpected(planner.error());
@@ -81,11 +81,15 @@ Result<Job> prepare(const SynchronizeSettings& settings, const Progress& progres
   if (!surface) return tl::unexpected(surface.error());
   auto heard = hear(settings, body->definition.mergeGap);
   if (!heard) return tl::unexpected(heard.error());
-  SurfaceProperties& properties = body->definition.surfaces.at(*surface);
-  const Learned learned = learnObject(*body, properties, cacheFolder(), progress);
-  properties.referenceImpulse = learned.referenceImpulse;
-  return Job{std::move(*body), std::move(*surface), std::move(*heard), std::move(*planner),
-             learned.outlook};
+  return Job{std::move(*body), std::move(*surface), std::move(*heard), std::move(*planner), {}};
+}
+
+// Takes time on an object's first use, so it comes after all that can be refused at once.
+void learn(Job& job, const Progress& progress) {
+  SurfaceProperties& surface = job.body.definition.surfaces.at(job.surface);
+  const Learned learned = learnObject(job.body, surface, cacheFolder(), progress);
+  surface.referenceImpulse = learned.referenceImpulse;
+  job.outlook = learned.outlook;
 }
 
 PlanRequest makeRequest(const SynchronizeSettings& settings, const Job& job) {
@@ -173,8 +177,9 @@ Result<Synchronization> run(const SynchronizeSettings& settings, const Job& job,
 }  // namespace
 
 Result<Synchronization> synchronize(const SynchronizeSettings& settings, const Progress& progress) {
-  auto job = prepare(settings, progress);
+  auto job = prepare(settings);
   if (!job) return tl::unexpected(job.error());
+  learn(*job, progress);
   return run(settings, *job, progress);
 }
 
@@ -182,7 +187,7 @@ Result<Synchronization> synchronizeToFolder(const SynchronizeSettings& settings,
                                             const fs::path& folder,
                                             const std::set<OutputFormat>& formats,
                                             const Progress& progress) {
-  auto job = prepare(settings, progress);
+  auto job = prepare(settings);
   if (!job) return tl::unexpected(job.error());
   const std::vector<fs::path> inputs = {settings.sound, settings.labels};
   if (auto good = refuseToOverwrite(folder, inputs, job->body.definition); !good) {
@@ -190,6 +195,7 @@ Result<Synchronization> synchronizeToFolder(const SynchronizeSettings& settings,
   }
   auto staged = StagedFolder::open(folder);
   if (!staged) return tl::unexpected(staged.error());
+  learn(*job, progress);
   auto result = run(settings, *job, progress);
   if (!result) return result;
   auto written =
