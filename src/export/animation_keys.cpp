@@ -121,4 +121,11 @@ std::vector<AnimationKey> animationKeys(const Motion& motion, double rate, doubl
   return keys;
 }
 
+std::vector<AnimationKey> animationKeys(const Motion& motion, const Mesh& mesh,
+                                        const AnimationSettings& settings) {
+  double radius = 0;
+  for (const Eigen::Vector3d& v : mesh.vertices) radius = std::max(radius, v.norm());
+  return animationKeys(motion, settings.keyRate, radius, settings.maxError);
+}
+
 }  // namespace ifa

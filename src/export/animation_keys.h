@@ -4,10 +4,18 @@
 
 #include <vector>
 
+#include "body/body.h"
 #include "export/pose_track.h"
 #include "ifa/motion.h"
 
 namespace ifa {
+
+/// How an animation file shows a body and its motion.
+struct AnimationSettings {
+  double keyRate = 120;       ///< keys per second, Hz
+  double maxError = 0.9e-4;   ///< m; more keys are set where a surface point would be further off
+  double creaseDegrees = 30;  ///< edges sharper than this are drawn sharp
+};
 
 struct AnimationKey {
   float time = 0;  ///< s from the sound's first sample
@@ -21,5 +29,8 @@ struct AnimationKey {
 /// @param motion  with samples
 [[nodiscard]] std::vector<AnimationKey> animationKeys(const Motion& motion, double rate,
                                                       double radius, double maxError);
+/// The same for a body that shows `mesh`.
+[[nodiscard]] std::vector<AnimationKey> animationKeys(const Motion& motion, const Mesh& mesh,
+                                                      const AnimationSettings& settings);
 
 }  // namespace ifa

@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file.h"
-#include "export/animation_keys.h"
 #include "export/drawable_mesh.h"
 
 namespace ifa {
@@ -187,24 +186,18 @@ std::string container(std::string json, const std::string& buffer) {
   return out + buffer;
 }
 
-double meshRadius(const Mesh& mesh) {
-  double radius = 0;
-  for (const Eigen::Vector3d& v : mesh.vertices) radius = std::max(radius, v.norm());
-  return radius;
-}
-
 tl::unexpected<Error> internalError(std::string message) {
   return tl::unexpected<Error>(Error{ErrorCode::kInternal, std::move(message), "motion.glb", {}});
 }
 
 }  // namespace
 
-Result<std::string> formatGlb(const Motion& motion, const Body& body, const GlbSettings& settings) {
+Result<std::string> formatGlb(const Motion& motion, const Body& body,
+                              const AnimationSettings& settings) {
   if (motion.trajectory.empty()) return internalError("the motion has no samples");
   const DrawableMesh drawable = drawableMesh(body.mesh, settings.creaseDegrees);
   if (drawable.positions.empty()) return internalError("the mesh has no triangles with an area");
-  const auto keys =
-      animationKeys(motion, settings.keyRate, meshRadius(body.mesh), settings.maxError);
+  const auto keys = animationKeys(motion, body.mesh, settings);
   const std::string& name = body.definition.name.empty() ? "body" : body.definition.name;
   Json root;
   Buffer buffer;
@@ -220,7 +213,7 @@ Result<std::string> formatGlb(const Motion& motion, const Body& body, const GlbS
 }
 
 Result<void> writeGlb(const std::filesystem::path& path, const Motion& motion, const Body& body,
-                      const GlbSettings& settings) {
+                      const AnimationSettings& settings) {
   const auto bytes = formatGlb(motion, body, settings);
   if (!bytes) return tl::unexpected<Error>(bytes.error());
   return writeFileAtomically(path, *bytes);

@@ -6,16 +6,11 @@
 #include <string>
 
 #include "body/body.h"
+#include "export/animation_keys.h"
 #include "ifa/motion.h"
 #include "ifa/result.h"
 
 namespace ifa {
-
-struct GlbSettings {
-  double keyRate = 120;       ///< keys per second, Hz
-  double maxError = 0.9e-4;   ///< m; more keys are set where a surface point would be further off
-  double creaseDegrees = 30;  ///< edges sharper than this are drawn sharp
-};
 
 /// The visible mesh with its materials, moved by one node's translation and rotation: metres, Y up,
 /// LINEAR keys at `keyRate` and exactly at each contact's start and end, t = 0 at the sound's first
@@ -23,10 +18,10 @@ struct GlbSettings {
 /// and sound are in the node's `extras`. The same motion gives the same bytes.
 /// Errors: kInternal when the motion has no samples or the mesh no triangles.
 [[nodiscard]] Result<std::string> formatGlb(const Motion& motion, const Body& body,
-                                            const GlbSettings& settings = {});
+                                            const AnimationSettings& settings = {});
 
 /// Atomic. Errors: those of formatGlb; kBadInput when the file cannot be written.
 [[nodiscard]] Result<void> writeGlb(const std::filesystem::path& path, const Motion& motion,
-                                    const Body& body, const GlbSettings& settings = {});
+                                    const Body& body, const AnimationSettings& settings = {});
 
 }  // namespace ifa

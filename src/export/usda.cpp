@@ -8,7 +8,6 @@
 #include <set>
 
 #include "base/file.h"
-#include "export/animation_keys.h"
 #include "export/drawable_mesh.h"
 
 namespace ifa {
@@ -211,13 +210,11 @@ tl::unexpected<Error> internalError(const char* message) {
 }  // namespace
 
 Result<std::string> formatUsda(const Motion& motion, const Body& body,
-                               const UsdaSettings& settings) {
+                               const AnimationSettings& settings) {
   if (motion.trajectory.empty()) return internalError("the motion has no samples");
   const DrawableMesh mesh = drawableMesh(body.mesh, settings.creaseDegrees);
   if (mesh.positions.empty()) return internalError("the mesh has no triangles with an area");
-  double radius = 0;
-  for (const Eigen::Vector3d& v : body.mesh.vertices) radius = std::max(radius, v.norm());
-  const auto keys = animationKeys(motion, settings.keyRate, radius, settings.maxError);
+  const auto keys = animationKeys(motion, body.mesh, settings);
   Stage stage;
   const double end = std::max(static_cast<double>(keys.back().time), motion.sound.duration);
   addHeader(motion, end, stage);
@@ -232,7 +229,7 @@ Result<std::string> formatUsda(const Motion& motion, const Body& body,
 }
 
 Result<void> writeUsda(const std::filesystem::path& path, const Motion& motion, const Body& body,
-                       const UsdaSettings& settings) {
+                       const AnimationSettings& settings) {
   const auto text = formatUsda(motion, body, settings);
   if (!text) return tl::unexpected<Error>(text.error());
   return writeFileAtomically(path, *text);

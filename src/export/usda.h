@@ -6,16 +6,11 @@
 #include <string>
 
 #include "body/body.h"
+#include "export/animation_keys.h"
 #include "ifa/motion.h"
 #include "ifa/result.h"
 
 namespace ifa {
-
-struct UsdaSettings {
-  double keyRate = 120;       ///< samples per second, Hz
-  double maxError = 0.9e-4;   ///< m; more are set where a surface point would be further off
-  double creaseDegrees = 30;  ///< edges sharper than this are drawn sharp
-};
 
 /// Metres, Z up, 24 time codes a second with code 0 at the sound's first sample. Under the default
 /// prim: the body, moved by xformOp:translate and xformOp:orient, with a mesh per material and its
@@ -23,10 +18,10 @@ struct UsdaSettings {
 /// motion gives the same bytes. Errors: kInternal when the motion has no samples or the mesh no
 /// triangles.
 [[nodiscard]] Result<std::string> formatUsda(const Motion& motion, const Body& body,
-                                             const UsdaSettings& settings = {});
+                                             const AnimationSettings& settings = {});
 
 /// Atomic. Errors: those of formatUsda; kBadInput when the file cannot be written.
 [[nodiscard]] Result<void> writeUsda(const std::filesystem::path& path, const Motion& motion,
-                                     const Body& body, const UsdaSettings& settings = {});
+                                     const Body& body, const AnimationSettings& settings = {});
 
 }  // namespace ifa
