@@ -6,12 +6,11 @@
 
 #include "dynamics/simulator.h"
 #include "kernel_drops.h"
+#include "rolling_prism.h"
 #include "support/box_body.h"
 
 namespace ifa {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 class Bounce : public testing::TestWithParam<double> {};
 
@@ -69,17 +68,6 @@ TEST(KernelPhysics, SpinningFrictionBrakesAsItsArmSays) {
   EXPECT_NEAR(drop.restTime, (20 - left) / braking, 0.02 * 20 / braking);
 }
 
-/// Faces that a prism rolls over, losing at each what an inelastic slap takes.
-int facesByTheBook(const Body& prism, int sides, double radius, double spin) {
-  const double half = kPi / sides;
-  const double aboutEdge = prism.principalMoments.x() + prism.mass * radius * radius;
-  const double kept = 1 - prism.mass * radius * radius * (1 - std::cos(2 * half)) / aboutEdge;
-  const double barrier = prism.mass * kGravity * radius * (1 - std::cos(half));
-  int faces = 0;
-  for (; aboutEdge * spin * spin / 2 > barrier; spin *= kept) ++faces;
-  return faces;
-}
-
 struct Roll {
   int sides;
   double spin;
@@ -89,21 +77,11 @@ struct Roll {
 class RollingPrism : public testing::TestWithParam<Roll> {};
 
 TEST_P(RollingPrism, LosesWhatItsFacesTake) {
-  constexpr double kRadius = 0.03;
   const auto [sides, spin, tolerance] = GetParam();
-  const Body prism = makePrismBody(sides, kRadius, 0.05, 0.1);
-  const double half = kPi / sides;
-  RigidState start;
-  start.position.z() = kRadius * std::cos(half);
-  start.angularVelocity.x() = -spin;
-  start.velocity = spin * kRadius * Eigen::Vector3d(0, std::cos(half), std::sin(half));
-  SurfaceProperties surface;
-  surface.restitution = 0;
-  surface.friction = 2;
-  const DropResult drop = simulateDrop(prism, surface, start, 60);
+  const RollingPrismCase prism(sides, 0.03, spin);
+  const DropResult drop = simulateDrop(prism.body, prism.surface, prism.start, 60);
   ASSERT_TRUE(drop.atRest);
-  const double rolled = drop.rest.position.y() / (2 * kRadius * std::sin(half));
-  EXPECT_NEAR(rolled, facesByTheBook(prism, sides, kRadius, spin), tolerance + 0.01);
+  EXPECT_NEAR(prism.facesRolled(drop.rest), prism.facesByTheBook(), tolerance + 0.01);
 }
 
 INSTANTIATE_TEST_SUITE_P(Prisms, RollingPrism,

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <thread>
 
+#include "rolling_prism.h"
 #include "sampler/initial_state.h"
 #include "support/box_body.h"
 
@@ -79,28 +80,11 @@ TEST(OdeBackend, RollingAndSpinningFrictionStopASpin) {
 }
 
 TEST(OdeBackend, RollingPrismLosesWhatItsFacesTake) {
-  constexpr int kSides = 24;
-  constexpr double kRadius = 0.03, kSpin = 10;
-  const Body prism = makePrismBody(kSides, kRadius, 0.05, 0.1);
-  const double half = 3.14159265358979323846 / kSides;
-  // About its leading edge: every face that slaps down takes the same share of the spin.
-  const double aboutEdge = prism.principalMoments.x() + prism.mass * kRadius * kRadius;
-  const double kept = 1 - prism.mass * kRadius * kRadius * (1 - std::cos(2 * half)) / aboutEdge;
-  const double barrier = prism.mass * kGravity * kRadius * (1 - std::cos(half));
-  int faces = 0;
-  for (double spin = kSpin; aboutEdge * spin * spin / 2 > barrier; spin *= kept) ++faces;
-  RigidState start;
-  start.position.z() = kRadius * std::cos(half);
-  start.angularVelocity.x() = -kSpin;
-  start.velocity = kSpin * kRadius * Eigen::Vector3d(0, std::cos(half), std::sin(half));
-  SurfaceProperties surface;
-  surface.restitution = 0;
-  surface.friction = 2;
+  const RollingPrismCase prism(24, 0.03, 10);
   OdeSettings settings;
   settings.step = 2.5e-4;
-  const DropResult drop = simulateDropOde(prism, surface, start, 30, settings);
-  const double rolled = drop.rest.position.y() / (2 * kRadius * std::sin(half));
-  EXPECT_NEAR(rolled, faces, 2);
+  const DropResult drop = simulateDropOde(prism.body, prism.surface, prism.start, 30, settings);
+  EXPECT_NEAR(prism.facesRolled(drop.rest), prism.facesByTheBook(), 2);
 }
 
 TEST(OdeBackend, EveryDropComesToRestOnTheGround) {
