@@ -15,7 +15,6 @@
 #include "body/object_file.h"
 #include "dynamics/simulator.h"
 #include "sampler/drop_statistics.h"
-#include "sampler/event_recorder.h"
 #include "sampler/initial_state.h"
 #include "signature/labels.h"
 #include "signature/signature.h"
@@ -76,10 +75,8 @@ void addDrops(const ifa::Body& body, double share, std::size_t drops, Rhythm& rh
   const ifa::BodyModel model(body, surface);
   for (std::size_t i = 0; i < drops; ++i) {
     const auto drop = ifa::simulateDrop(model, ifa::sampleInitialState(body, 7, i), kTimeLimit);
-    ifa::EventRecorder recorder(cut);
-    for (const ifa::ContactStep& step : drop.steps) recorder.add(step);
     std::vector<double> starts, ends;
-    for (const ifa::ContactEvent& event : recorder.finish(drop.atRest)) {
+    for (const ifa::ContactEvent& event : ifa::eventsOf(drop, cut)) {
       starts.push_back(event.start);
       ends.push_back(event.end);
     }

@@ -59,9 +59,7 @@ Drop simulate(const Body& nominal, const Options& options, std::uint64_t index) 
   const ifa::RigidState start = ifa::sampleInitialState(body, options.seed, index);
   const ifa::DropResult result =
       ifa::simulateDropOde(body, surface, start, kTimeLimit, ifa::fineOde());
-  ifa::EventRecorder recorder(ifa::audibleCut(body, surface));
-  for (const ifa::ContactStep& step : result.steps) recorder.add(step);
-  const auto events = recorder.finish(result.atRest);
+  const auto events = ifa::eventsOf(result, ifa::audibleCut(body, surface));
   const double speed = ifa::kineticSpeed(body, start);
   const double initial = body.mass * (speed * speed / 2 + ifa::kGravity * start.position.z());
   drop.rested = result.atRest;

@@ -9,6 +9,7 @@
 #include "base/portable_math.h"
 #include "dynamics/energy.h"
 #include "dynamics/simulator.h"
+#include "sampler/drop_statistics.h"
 #include "sampler/initial_state.h"
 
 namespace ifa {
@@ -29,9 +30,7 @@ struct Sample {
 std::vector<Sample> samplesOfDrop(const Body& body, const BodyModel& model,
                                   const RecorderSettings& settings, std::uint64_t index) {
   const DropResult drop = simulateDrop(model, sampleInitialState(body, kSeed, index), kLongestDrop);
-  EventRecorder recorder(settings);
-  for (const ContactStep& step : drop.steps) recorder.add(step);
-  const std::vector<ContactEvent> events = recorder.finish(drop.atRest);
+  const std::vector<ContactEvent> events = eventsOf(drop, settings);
   std::vector<double> starts, impulses;
   for (const ContactEvent& event : events) {
     starts.push_back(event.start);

@@ -8,6 +8,7 @@
 #include "dynamics/energy.h"
 #include "dynamics/simulator.h"
 #include "planner/silent_search.h"
+#include "sampler/drop_statistics.h"
 #include "sampler/initial_state.h"
 
 namespace ifa {
@@ -46,9 +47,7 @@ double ShootingWorker::silentHorizon(double duration) { return 1.3 * duration + 
 void ShootingWorker::plantLate(unsigned root, std::uint64_t seed) {
   const RigidState start = sampleInitialState(*problem_.request.body, seed, root);
   const DropResult drop = simulateDrop(problem_.model, start, kLongestDrop);
-  EventRecorder recorder(problem_.recorder);
-  for (const ContactStep& step : drop.steps) recorder.add(step);
-  const std::vector<ContactEvent> events = recorder.finish(drop.atRest);
+  const std::vector<ContactEvent> events = eventsOf(drop, problem_.recorder);
   if (events.size() < problem_.targets.size()) return;
   ShootingNode node;
   node.root = root;

@@ -41,6 +41,12 @@ RecorderSettings audibleCut(const Body& body, const SurfaceProperties& surface) 
           true};
 }
 
+std::vector<ContactEvent> eventsOf(const DropResult& drop, const RecorderSettings& settings) {
+  EventRecorder recorder(settings);
+  for (const ContactStep& step : drop.steps) recorder.add(step);
+  return recorder.finish(drop.atRest);
+}
+
 RecorderSettings paperCut(const Body& body) {
   return {body.definition.mergeGap, body.mass * kGravity, 0, false};
 }

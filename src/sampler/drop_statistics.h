@@ -16,6 +16,9 @@ namespace ifa {
 
 /// How the audible events of `body` on `surface` are found; J_ref is the surface's.
 [[nodiscard]] RecorderSettings audibleCut(const Body& body, const SurfaceProperties& surface);
+/// All events of a drop.
+[[nodiscard]] std::vector<ContactEvent> eventsOf(const DropResult& drop,
+                                                 const RecorderSettings& settings);
 /// The paper's own cut: any impulse above zero.
 [[nodiscard]] RecorderSettings paperCut(const Body& body);
 

@@ -9,7 +9,6 @@
 #include "dynamics/simulator.h"
 #include "ifa/motion.h"
 #include "sampler/drop_statistics.h"
-#include "sampler/event_recorder.h"
 #include "sampler/initial_state.h"
 
 namespace ifa::test {
@@ -19,9 +18,7 @@ class DropMotion {
  public:
   DropMotion(const Body& body, const SurfaceProperties& surface, const DropResult& drop)
       : body_(body) {
-    EventRecorder recorder(audibleCut(body, surface));
-    for (const ContactStep& step : drop.steps) recorder.add(step);
-    const auto events = recorder.finish(drop.atRest);
+    const auto events = eventsOf(drop, audibleCut(body, surface));
     listContacts(events);
     record(drop.steps.front().time, drop.steps.front().before);
     for (const ContactStep& step : drop.steps) {

@@ -97,10 +97,8 @@ ContactSignature signatureOfADrop(const std::string& object) {
   const Body body = loadObject(object).value();
   const auto& surface = body.definition.surfaces.at(body.definition.defaultSurface);
   const auto drop = simulateDrop(body, surface, sampleInitialState(body, 3, 1), 20);
-  EventRecorder recorder(audibleCut(body, surface));
-  for (const ContactStep& step : drop.steps) recorder.add(step);
+  const auto events = eventsOf(drop, audibleCut(body, surface));
   ContactSignature signature;
-  const auto events = recorder.finish(drop.atRest);
   for (const ContactEvent& event : events) {
     const double duration = event.filteredDuration(body.definition.mergeGap);
     signature.events.push_back({event.start - events.front().start, duration,

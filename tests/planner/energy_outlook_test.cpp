@@ -35,9 +35,7 @@ std::vector<double> deviations(const test::Ground& ground, const BodyModel& mode
   std::vector<double> all;
   for (std::uint64_t i = 0; i < drops; ++i) {
     const DropResult drop = simulateDrop(model, sampleInitialState(ground.body, 98, i), 10);
-    EventRecorder recorder(audibleCut(ground.body, ground.surface));
-    for (const ContactStep& step : drop.steps) recorder.add(step);
-    const auto events = recorder.finish(drop.atRest);
+    const auto events = eventsOf(drop, audibleCut(ground.body, ground.surface));
     std::vector<double> starts, impulses;
     for (const ContactEvent& event : events) {
       starts.push_back(event.start);

@@ -11,12 +11,6 @@ namespace {
 
 using test::sameBits;
 
-std::vector<ContactEvent> eventsOf(const DropResult& drop, const RecorderSettings& settings) {
-  EventRecorder recorder(settings);
-  for (const ContactStep& step : drop.steps) recorder.add(step);
-  return recorder.finish(drop.atRest);
-}
-
 /// The state that a replay reaches where the event ends, or nothing.
 bool replays(const BodyModel& model, const ContactEvent& event, double restitution) {
   Stepper stepper(model);

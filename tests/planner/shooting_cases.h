@@ -37,9 +37,7 @@ inline PlanRequest requestFor(const Body& body) {
 inline ContactSignature signatureOfDrop(const Body& body, std::uint64_t index) {
   const auto& surface = body.definition.surfaces.at(body.definition.defaultSurface);
   const DropResult drop = simulateDrop(body, surface, sampleInitialState(body, 1234, index), 10);
-  EventRecorder recorder(audibleCut(body, surface));
-  for (const ContactStep& step : drop.steps) recorder.add(step);
-  const auto events = recorder.finish(drop.atRest);
+  const auto events = eventsOf(drop, audibleCut(body, surface));
   ContactSignature signature;
   for (const ContactEvent& event : events) {
     const double duration = event.filteredDuration(body.definition.mergeGap);
