@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "body/body.h"
-#include "export/pose_track.h"
+#include "model/pose_track.h"
 #include "ifa/motion.h"
 
 namespace ifa {

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file.h"
-#include "export/drawable_mesh.h"
+#include "body/drawable_mesh.h"
 
 namespace ifa {
 namespace {

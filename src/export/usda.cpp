@@ -8,7 +8,7 @@
 #include <set>
 
 #include "base/file.h"
-#include "export/drawable_mesh.h"
+#include "body/drawable_mesh.h"
 
 namespace ifa {
 

@@ -11,8 +11,8 @@
 
 #include "audit/analytic_motion.h"
 #include "body/object_file.h"
-#include "export/drawable_mesh.h"
-#include "export/pose_track.h"
+#include "body/drawable_mesh.h"
+#include "model/pose_track.h"
 
 namespace ifa {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "audit/analytic_motion.h"
 #include "base/file.h"
-#include "export/pose_track.h"
+#include "model/pose_track.h"
 #include "support/temporary_folder.h"
 
 namespace ifa {

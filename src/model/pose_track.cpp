@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "export/pose_track.h"
+#include "model/pose_track.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "export/drawable_mesh.h"
+#include "body/drawable_mesh.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Frames and a sound into an MP4 file.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ifa/result.h"
+#include "model/image.h"
+#include "sound/sound.h"
+
+namespace ifa {
+
+/// How a film is encoded.
+struct FilmSettings {
+  int width = 640, height = 360;  ///< pixels, even, 16 to 8192
+  double framesPerSecond = 60;    ///< 1 to 240
+  double quality = 20;            ///< constant rate factor of H.264, 0 (lossless) to 51
+  double speed = 1;               ///< the sound is stretched to 1/speed of its length, as a tape is
+  /// Names of libav's video encoders, the first that there is counts.
+  std::vector<std::string> encoders = {"libx264", "libopenh264", "mpeg4"};
+};
+
+/// False in a build without libav: films cannot be written, everything else can.
+[[nodiscard]] bool filmsCanBeWritten();
+
+/// Writes a film frame by frame. Frame k is shown from k/framesPerSecond s on; the sound's first
+/// sample is heard at 0 s exactly. The film is as long as its frames: a longer sound is cut, a
+/// shorter one is followed by silence. Not thread safe.
+class FilmWriter {
+ public:
+  /// Writes to a temporary beside `path`, so nothing is seen under that name before `finish`.
+  /// @param sound  with samples, or none for a silent film
+  /// Errors: kBadInput when the file cannot be made; kInternal when libav refuses.
+  [[nodiscard]] static Result<FilmWriter> open(const std::filesystem::path& path,
+                                               const FilmSettings& settings, const Sound* sound);
+
+  FilmWriter(FilmWriter&&) noexcept;
+  FilmWriter& operator=(FilmWriter&&) = delete;
+  /// Leaves no trace unless finished.
+  ~FilmWriter();
+
+  /// @param frame  of the settings' size. Errors: kBadInput when the disk is full.
+  [[nodiscard]] Result<void> add(const Image& frame);
+  /// Completes the file and gives it its name.
+  [[nodiscard]] Result<void> finish();
+  /// What the user should know: that the film is not H.264, and what it is. Mostly empty.
+  [[nodiscard]] const std::string& warning() const;
+
+ private:
+  struct Encoder;
+  explicit FilmWriter(std::unique_ptr<Encoder> encoder);
+  std::unique_ptr<Encoder> encoder_;
+};
+
+}  // namespace ifa
