@@ -8,9 +8,8 @@
 #include <string>
 
 #include "audit/audit.h"
-#include "body/object_file.h"
 #include "command.h"
-#include "export/motion_json.h"
+#include "pipeline/motion_folder.h"
 
 namespace ifa::cli {
 
@@ -22,21 +21,6 @@ struct VerifyOptions {
   fs::path motion;
   std::string object;
 };
-
-/// The object that the motion was made with: the copy beside it, else the library's.
-Result<Body> loadObjectOf(const Motion& motion, const VerifyOptions& options, Console& console) {
-  if (!options.object.empty()) return loadObject(options.object);
-  const std::string& name = motion.object.name;
-  if (name.empty() || fs::path(name).filename() != name) {
-    return badInput("names an object that cannot be looked for", options.motion.string(),
-                    "name the object file with --object");
-  }
-  const fs::path copy = options.motion.parent_path() / (name + ".json");
-  std::error_code code;
-  if (fs::is_regular_file(copy, code)) return loadObject(copy.string());
-  console.warn("no " + name + ".json beside the motion; taking the library's");
-  return loadObject(name);
-}
 
 int verdict(const Motion& motion, const AuditReport& report, const std::string& place,
             CommandContext& context) {
@@ -56,18 +40,15 @@ int verdict(const Motion& motion, const AuditReport& report, const std::string& 
   return context.succeed();
 }
 
-int runVerify(VerifyOptions options, CommandContext& context) {
-  std::error_code code;
-  if (fs::is_directory(options.motion, code)) options.motion /= "motion.json";
-  const auto motion = readMotionJson(options.motion);
-  if (!motion) return context.fail(motion.error());
-  const auto body = loadObjectOf(*motion, options, context.console);
-  if (!body) return context.fail(body.error());
-  const AuditReport report = audit(*motion, *body);
+int runVerify(const VerifyOptions& options, CommandContext& context) {
+  const auto folder = readMotionFolder(options.motion, options.object);
+  if (!folder) return context.fail(folder.error());
+  for (const std::string& warning : folder->warnings) context.console.warn(warning);
+  const AuditReport report = audit(folder->motion, folder->body);
   std::string table = formatAudit(report);
   table.pop_back();  // the console adds its own newline
   context.console.result(table);
-  return verdict(*motion, report, options.motion.string(), context);
+  return verdict(folder->motion, report, folder->file.string(), context);
 }
 
 }  // namespace

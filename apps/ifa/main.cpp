@@ -35,6 +35,7 @@ void addCommands(CLI::App& app, CommandContext& context) {
   addSyncCommand(app, context);
   addDetectCommand(app, context);
   addObjectsCommand(app, context);
+  addRenderCommand(app, context);
   addVerifyCommand(app, context);
   addEvaluateCommand(app, context);
 }

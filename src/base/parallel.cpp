@@ -4,8 +4,10 @@
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_pipeline.h>
 #include <tbb/partitioner.h>
 
+#include <atomic>
 #include <memory>
 
 namespace ifa {
@@ -19,6 +21,28 @@ void parallelFor(std::size_t count, const std::function<void(std::size_t)>& body
         for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
       },
       tbb::simple_partitioner());
+}
+
+void makeInOrder(std::size_t count, std::size_t ahead, const std::function<void(std::size_t)>& make,
+                 const std::function<bool(std::size_t)>& take) {
+  std::size_t next = 0;
+  std::atomic<bool> stopped{false};
+  const auto begin = [&](tbb::flow_control& control) {
+    if (next == count || stopped) control.stop();
+    return next++;
+  };
+  const auto work = [&](std::size_t i) {
+    if (!stopped) make(i);
+    return i;
+  };
+  const auto finish = [&](std::size_t i) {
+    if (!stopped && !take(i)) stopped = true;
+  };
+  using Mode = tbb::filter_mode;
+  tbb::parallel_pipeline(ahead,
+                         tbb::make_filter<void, std::size_t>(Mode::serial_in_order, begin) &
+                             tbb::make_filter<std::size_t, std::size_t>(Mode::parallel, work) &
+                             tbb::make_filter<std::size_t, void>(Mode::serial_in_order, finish));
 }
 
 void setThreadCount(int count) {

@@ -12,6 +12,13 @@ namespace ifa {
 /// the caller.
 void parallelFor(std::size_t count, const std::function<void(std::size_t)>& body);
 
+/// Calls `make(i)` for i in [0, count) on the worker threads and `take(i)` for each in order, one
+/// at a time. At most `ahead` indices are made and not yet taken, and these follow each other, so
+/// that `ahead` places are enough for what is made. Ends early when `take` returns false.
+/// Exceptions pass to the caller.
+void makeInOrder(std::size_t count, std::size_t ahead, const std::function<void(std::size_t)>& make,
+                 const std::function<bool(std::size_t)>& take);
+
 /// Limits the number of worker threads from now on; 0 means one per core. For tests and
 /// `--threads`.
 void setThreadCount(int count);

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// The stages of `ifa render`.
+#include <cmath>
+
+#include "ifa/film.h"
+#include "pipeline/motion_folder.h"
+#include "pipeline/write_film.h"
+
+namespace ifa {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t kMostMotions = 64;
+
+tl::unexpected<Error> usage(std::string message, std::string place, std::string remedy) {
+  return tl::unexpected<Error>(
+      {ErrorCode::kUsage, std::move(message), std::move(place), std::move(remedy)});
+}
+
+enum class Kind { kFilm, kPng, kFolder };
+
+Result<Kind> kindOf(const fs::path& output) {
+  const std::string extension = output.extension().string();
+  if (extension == ".mp4") return Kind::kFilm;
+  if (extension == ".png") return Kind::kPng;
+  std::error_code code;
+  if (extension.empty() || fs::is_directory(output, code)) return Kind::kFolder;
+  return usage("is neither a film, nor a picture, nor a folder", output.string(),
+               "name a .mp4 or .png file, or a folder for a sequence");
+}
+
+/// What distinguishes the folders, for the pictures.
+std::string nameOf(const MotionFolder& folder) {
+  const std::string parent = fs::absolute(folder.file).parent_path().filename().string();
+  return folder.file.filename() == "motion.json" ? parent : folder.file.stem().string();
+}
+
+Result<std::vector<MotionFolder>> readAll(const std::vector<fs::path>& motions) {
+  if (motions.empty() || motions.size() > kMostMotions) {
+    return usage("one to 64 motions can be shown", "MOTION", {});
+  }
+  std::vector<MotionFolder> folders;
+  for (const fs::path& motion : motions) {
+    auto folder = readMotionFolder(motion);
+    if (!folder) return tl::unexpected(folder.error());
+    folders.push_back(std::move(*folder));
+  }
+  return folders;
+}
+
+Result<void> write(Kind kind, const fs::path& output, const std::vector<FilmPart>& parts,
+                   const Sound* sound, const FilmOptions& options, std::optional<double> still,
+                   const Progress& progress, std::vector<std::string>& warnings) {
+  if (kind == Kind::kFolder) return writeSequence(output, parts, sound, options, progress);
+  if (kind == Kind::kPng) {
+    return still ? writeStill(output, parts, sound, options, *still)
+                 : writeContactSheet(output, parts, options, progress);
+  }
+  const auto told = writeFilm(output, parts, sound, options, progress);
+  if (!told) return tl::unexpected(told.error());
+  if (!told->empty()) warnings.push_back(*told);
+  return {};
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> renderMotions(const std::vector<fs::path>& motions,
+                                               const fs::path& output, const FilmOptions& options,
+                                               std::optional<double> still,
+                                               const Progress& progress) {
+  if (auto good = checkFilmOptions(withSize(options)); !good) return tl::unexpected(good.error());
+  const auto kind = kindOf(output);
+  if (!kind) return tl::unexpected(kind.error());
+  if (still && (*kind != Kind::kPng || !std::isfinite(*still))) {
+    return usage("goes with a PNG file and a time in seconds", "--at", {});
+  }
+  auto folders = readAll(motions);
+  if (!folders) return tl::unexpected(folders.error());
+  std::optional<Sound> sound;
+  if (*kind != Kind::kPng || options.overlay) {
+    auto read = readSoundBeside(folders->front());
+    if (!read) return tl::unexpected(read.error());
+    sound = std::move(*read);
+  }
+  std::vector<FilmPart> parts;
+  std::vector<std::string> warnings;
+  for (const MotionFolder& folder : *folders) {
+    parts.push_back({&folder.motion, &folder.body, nameOf(folder)});
+    warnings.insert(warnings.end(), folder.warnings.begin(), folder.warnings.end());
+  }
+  const auto written =
+      write(*kind, output, parts, sound ? &*sound : nullptr, options, still, progress, warnings);
+  if (!written) return tl::unexpected(written.error());
+  return warnings;
+}
+
+}  // namespace ifa
