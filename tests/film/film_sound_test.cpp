@@ -45,7 +45,7 @@ TEST_P(FilmSound, ClicksComeBackWhereTheyWere) {
   ASSERT_EQ(film.sound.size(), 1u);
   for (const int click : clicks) {
     const double expected = click / (rate * speed) * kFilmRate;
-    EXPECT_NEAR(test::clickDelay(film.sound[0], expected, kFilmRate, speed), 0, 0.5) << click;
+    EXPECT_NEAR(test::clickDelay(film.sound[0], expected, kFilmRate, speed), 0, 0.1) << click;
   }
 }
 
@@ -92,8 +92,8 @@ TEST(FilmSound, StereoStaysStereo) {
   }
   const DecodedFilm film = filmOf(sound, 60);
   ASSERT_EQ(film.sound.size(), 2u);
-  EXPECT_NEAR(test::clickDelay(film.sound[0], 8000 * 48000.0 / 44100, kFilmRate), 0, 0.5);
-  EXPECT_NEAR(test::clickDelay(film.sound[1], 30000 * 48000.0 / 44100, kFilmRate), 0, 0.5);
+  EXPECT_NEAR(test::clickDelay(film.sound[0], 8000 * 48000.0 / 44100, kFilmRate), 0, 0.1);
+  EXPECT_NEAR(test::clickDelay(film.sound[1], 30000 * 48000.0 / 44100, kFilmRate), 0, 0.1);
   EXPECT_LT(std::abs(film.sound[1][8707]), 0.05);
 }
 
@@ -103,7 +103,7 @@ TEST(FilmSound, MoreThanTwoChannelsAreHeardAsOne) {
   sound.interleaved.assign(sound.samples.size() * 3, 0.0F);
   const DecodedFilm film = filmOf(sound, 30);
   ASSERT_EQ(film.sound.size(), 1u);
-  EXPECT_NEAR(test::clickDelay(film.sound[0], 8000, kFilmRate), 0, 0.5);
+  EXPECT_NEAR(test::clickDelay(film.sound[0], 8000, kFilmRate), 0, 0.1);
 }
 
 TEST(FilmSound, IsAsLongAsTheFilm) {
@@ -134,7 +134,7 @@ TEST(FilmSound, EndsAnywhereInABlock) {
     EXPECT_EQ(film.soundDuration, (Fraction{frames * 200, 48000})) << frames;
     EXPECT_EQ(film.videoDuration, (Fraction{frames, 240})) << frames;
     EXPECT_NEAR(film.duration, frames / 240.0, 1e-6) << frames;
-    EXPECT_NEAR(test::clickDelay(film.sound.at(0), 100, kFilmRate), 0, 0.5) << frames;
+    EXPECT_NEAR(test::clickDelay(film.sound.at(0), 100, kFilmRate), 0, 0.1) << frames;
   }
 }
 
@@ -146,7 +146,7 @@ TEST(FilmSound, FitsRatesThatDoNotDivideItsOwn) {
   EXPECT_NEAR(samples, 31 * 1601.6, 1);
   EXPECT_EQ(film.videoDuration, (Fraction{31 * 1001, 30000}));
   EXPECT_NEAR(film.duration, 31 * 1001 / 30000.0, 1e-6);
-  EXPECT_NEAR(test::clickDelay(film.sound.at(0), 24000, kFilmRate), 0, 0.5);
+  EXPECT_NEAR(test::clickDelay(film.sound.at(0), 24000, kFilmRate), 0, 0.1);
 }
 
 }  // namespace
