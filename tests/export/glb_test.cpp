@@ -213,6 +213,29 @@ TEST(Glb, HasTheMaterials) {
   EXPECT_EQ(json["meshes"][0]["primitives"].size(), 2u);
 }
 
+TEST(Glb, HasAFloorAndALightWhenAsked) {
+  const Motion motion = test::makeSlidingMotion(box());
+  EXPECT_FALSE(Parsed(formatGlb(motion, box()).value()).json.contains("extensionsUsed"));
+  AnimationSettings settings;
+  settings.floorAndLight = true;
+  const Parsed file(formatGlb(motion, box(), settings).value());
+  EXPECT_EQ(file.json["scenes"][0]["nodes"], Json({0, 1, 2}));
+  EXPECT_EQ(file.json["nodes"][0]["name"], box().definition.name);
+  EXPECT_EQ(file.json["nodes"][1]["name"], "floor");
+  EXPECT_EQ(file.json["extensionsUsed"], Json({"KHR_lights_punctual"}));
+  EXPECT_TRUE(file.json["nodes"][2]["extensions"].contains("KHR_lights_punctual"));
+  const Json& floor = file.json["meshes"][1]["primitives"][0];
+  const Json& range = file.json["accessors"][floor["attributes"]["POSITION"].get<std::size_t>()];
+  EXPECT_EQ(range["min"][1], 0.0);
+  EXPECT_EQ(range["max"][1], 0.0);
+  for (const MotionSample& sample : motion.trajectory) {
+    EXPECT_GT(sample.position.x() - 0.1, range["min"][0]);
+    EXPECT_LT(sample.position.x() + 0.1, range["max"][0]);
+    EXPECT_GT(-sample.position.y() - 0.1, range["min"][2]);
+    EXPECT_LT(-sample.position.y() + 0.1, range["max"][2]);
+  }
+}
+
 TEST(Glb, IsTheSameEveryTime) {
   const Motion motion = test::makeTumblingMotion(box());
   EXPECT_EQ(formatGlb(motion, box()).value(), formatGlb(motion, box()).value());
@@ -235,14 +258,18 @@ TEST(Glb, PassesTheKhronosValidator) {
   const auto folder = std::filesystem::path(testing::TempDir()) / "ifa_glb";
   std::filesystem::create_directories(folder);
   std::string command = "node '" + (here / "validate_glb.mjs").string() + "'";
+  AnimationSettings settings;
   const auto write = [&](const std::string& name, const Motion& motion, const Body& body) {
     const std::string path = (folder / (name + ".glb")).string();
-    ASSERT_TRUE(writeGlb(path, motion, body).has_value());
+    ASSERT_TRUE(writeGlb(path, motion, body, settings).has_value());
     command += " '" + path + "'";
   };
   const Motion sliding = test::makeSlidingMotion(box());
   write("tumbling", test::makeTumblingMotion(box()), box());
   write("sliding", sliding, box());
+  settings.floorAndLight = true;
+  write("floor_and_light", sliding, box());
+  settings.floorAndLight = false;
   const auto objects = listObjects();
   ASSERT_TRUE(objects.has_value());
   for (const std::string& name : *objects) write(name, sliding, loadObject(name).value());

@@ -22,13 +22,15 @@ TEST(OtherReaders, SeeTheMotion) {
   const test::TemporaryFolder folder;
   std::string command = "node '" + (here / "check_animations.mjs").string() + "'";
   const Body box = test::makeDrawableBox();
+  AnimationSettings settings;
   for (const auto& [name, motion] : {std::pair("tumbling", test::makeTumblingMotion(box)),
                                      std::pair("sliding", test::makeSlidingMotion(box))}) {
     const auto there = folder / name;
     std::filesystem::create_directories(there);
     ASSERT_TRUE(writeMotionJson(there / "motion.json", motion).has_value());
-    ASSERT_TRUE(writeGlb(there / "motion.glb", motion, box).has_value());
+    ASSERT_TRUE(writeGlb(there / "motion.glb", motion, box, settings).has_value());
     ASSERT_TRUE(writeUsda(there / "motion.usda", motion, box).has_value());
+    settings.floorAndLight = true;  // in the second
     command += " '" + there.string() + "'";
   }
   EXPECT_EQ(std::system(command.c_str()), 0);
