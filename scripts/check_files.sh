@@ -69,6 +69,10 @@ if ! command -v blender >/dev/null; then
   echo 'skipped: blender is not installed'
   exit 0
 fi
+if ! blender -b --factory-startup --python-exit-code 1 --python-expr 'import numpy' &>/dev/null; then
+  echo 'skipped: Blender lacks numpy, which its glTF importer needs (python3-numpy)'
+  exit 0
+fi
 blender -b --factory-startup --python-exit-code 1 -P scripts/check_blender.py -- "$work"/*/ \
   >"$work/log" 2>"$work/errors" && good=1 || good=
 # Blender's importer tells of itself between the rows.
