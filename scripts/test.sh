@@ -6,10 +6,7 @@ set -eu
 cd "$(dirname "$0")/.."
 
 scripts/install_packages.sh build test
-if [ -f tests/export/package.json ] &&
-  ! [ tests/export/node_modules/.package-lock.json -nt tests/export/package-lock.json ]; then
-  (cd tests/export && npm ci --no-audit --no-fund)
-fi
+scripts/install_validators.sh
 cmake --preset dev
 cmake --build --preset dev
 ctest --preset dev -j "$(nproc)"

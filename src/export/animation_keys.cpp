@@ -79,12 +79,19 @@ class Refinement {
     return where;
   }
 
+  /// Players turn along the arc between two quaternions (glTF's rule, three.js) or along the chord
+  /// (Blender); the worse of the two.
   [[nodiscard]] double distance(const Pose& a, const Pose& b, double share,
                                 const Pose& truth) const {
     const Eigen::Vector3d position = a.position + share * (b.position - a.position);
-    const Eigen::Quaterniond orientation = a.orientation.slerp(share, b.orientation);
+    const Eigen::Quaterniond arc = a.orientation.slerp(share, b.orientation);
+    const double sign = a.orientation.dot(b.orientation) < 0 ? -1 : 1;
+    const Eigen::Quaterniond chord(
+        ((1 - share) * a.orientation.coeffs() + sign * share * b.orientation.coeffs())
+            .normalized());
     return (position - truth.position).norm() +
-           radius_ * orientation.angularDistance(truth.orientation);
+           radius_ * std::max(arc.angularDistance(truth.orientation),
+                              chord.angularDistance(truth.orientation));
   }
 
   const Motion& motion_;

@@ -5,16 +5,17 @@
 #include <vector>
 
 #include "body/body.h"
-#include "model/pose_track.h"
 #include "ifa/motion.h"
+#include "model/pose_track.h"
 
 namespace ifa {
 
 /// How an animation file shows a body and its motion.
 struct AnimationSettings {
-  double keyRate = 120;       ///< keys per second, Hz
-  double maxError = 0.9e-4;   ///< m; more keys are set where a surface point would be further off
-  double creaseDegrees = 30;  ///< edges sharper than this are drawn sharp
+  double keyRate = 120;        ///< keys per second, Hz
+  double maxError = 0.9e-4;    ///< m; more keys are set where a surface point would be further off
+  double creaseDegrees = 30;   ///< edges sharper than this are drawn sharp
+  bool floorAndLight = false;  ///< in GLB: the floor below the motion and a directional light
 };
 
 struct AnimationKey {

@@ -3,8 +3,10 @@
 // set-up for it, and its bytes are ours to keep stable.
 #include "export/glb.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -167,6 +169,55 @@ void addScene(const Motion& motion, const AnimationKey& rest, const std::string&
                                 {"extras", extras(motion)}}});
 }
 
+/// The scene's next node.
+void addNode(Json node, Json& root) {
+  root["scenes"][0]["nodes"].push_back(root["nodes"].size());
+  root["nodes"].push_back(std::move(node));
+}
+
+/// A square at height 0, under the whole motion and ten times the body's size beyond it.
+void addFloor(const std::vector<AnimationKey>& keys, const DrawableMesh& drawable, Buffer& buffer,
+              Json& root) {
+  float size = 0;
+  for (const auto& p : drawable.positions) size = std::max(size, std::hypot(p[0], p[1], p[2]));
+  Eigen::AlignedBox2f ground;
+  for (const AnimationKey& key : keys) ground.extend(key.pose.position.head<2>().cast<float>());
+  const Eigen::Vector2f middle = ground.center();
+  const float half = 0.5F * ground.sizes().maxCoeff() + 10 * size;
+  std::vector<std::array<float, 3>> corners;
+  for (const auto& [x, y] : {std::pair(-half, -half), {half, -half}, {half, half}, {-half, half}}) {
+    corners.push_back(yUp(middle.x() + x, middle.y() + y, 0.0F));
+  }
+  const int position = buffer.add(corners, "VEC3", kFloat, kVertexTarget);
+  buffer.setRange(position, corners[3], corners[1]);  // y becomes -z
+  const std::vector<std::array<float, 3>> up(4, {0, 1, 0});
+  const int normal = buffer.add(up, "VEC3", kFloat, kVertexTarget);
+  const std::vector<std::uint32_t> triangles = {0, 1, 2, 0, 2, 3};
+  const int indices = buffer.add(triangles, "SCALAR", kUnsignedInt, kIndexTarget);
+  addNode({{"name", "floor"}, {"mesh", root["meshes"].size()}}, root);
+  root["meshes"].push_back(
+      {{"name", "floor"},
+       {"primitives", Json::array({{{"attributes", {{"POSITION", position}, {"NORMAL", normal}}},
+                                    {"indices", indices},
+                                    {"material", root["materials"].size()}}})}});
+  MeshMaterial material;
+  material.name = "floor";
+  material.colour = {0.35F, 0.35F, 0.35F, 1};
+  material.roughness = 0.9F;
+  root["materials"].push_back(materialJson(material));
+}
+
+/// As bright as a well-lit desk, from 60 degrees above the horizon.
+void addLight(Json& root) {
+  const Json light = {{"type", "directional"}, {"name", "light"}, {"intensity", 1000}};  // lux
+  root["extensionsUsed"] = Json::array({"KHR_lights_punctual"});
+  root["extensions"] = {{"KHR_lights_punctual", {{"lights", Json::array({light})}}}};
+  addNode({{"name", "light"},
+           {"rotation", {-0.5, 0, 0, 0.8660254037844386}},
+           {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}},
+          root);
+}
+
 void appendWord(std::string& out, std::uint32_t word) {
   char bytes[4];
   std::memcpy(bytes, &word, 4);
@@ -204,6 +255,10 @@ Result<std::string> formatGlb(const Motion& motion, const Body& body,
   addScene(motion, keys.front(), name, root);
   addMesh(body.mesh, drawable, name, buffer, root);
   addAnimation(keys, buffer, root);
+  if (settings.floorAndLight) {
+    addFloor(keys, drawable, buffer, root);
+    addLight(root);
+  }
   buffer.describe(root);
   const std::string json = root.dump(-1, ' ', false, Json::error_handler_t::replace);
   if (json.size() + buffer.bytes().size() > std::numeric_limits<std::uint32_t>::max() - 64) {

@@ -15,7 +15,8 @@ namespace ifa {
 /// The visible mesh with its materials, moved by one node's translation and rotation: metres, Y up,
 /// LINEAR keys at `keyRate` and exactly at each contact's start and end, t = 0 at the sound's first
 /// sample (the first pose is held until the motion begins), rest pose = first key. Contacts, seed
-/// and sound are in the node's `extras`. The same motion gives the same bytes.
+/// and sound are in the node's `extras`. With `floorAndLight` two more nodes, `floor` and `light`
+/// (KHR_lights_punctual). The same motion gives the same bytes.
 /// Errors: kInternal when the motion has no samples or the mesh no triangles.
 [[nodiscard]] Result<std::string> formatGlb(const Motion& motion, const Body& body,
                                             const AnimationSettings& settings = {});

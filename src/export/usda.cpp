@@ -55,14 +55,13 @@ class Stage {
   }
   /// `name = [item(0), item(1), ...]` on one line.
   template <class Item>
-  void array(const std::string& name, std::size_t count, const Item& item,
-             const std::string& metadata = {}) {
+  void array(const std::string& name, std::size_t count, const Item& item, const char* after = "") {
     std::string values;
     for (std::size_t i = 0; i < count; ++i) {
       if (i > 0) values += ", ";
       values += item(i);
     }
-    line("{} = [{}]{}", name, values, metadata);
+    line("{} = [{}]{}", name, values, after);
   }
   /// `name.timeSamples = {...}`, one sample a line.
   template <class Item>
@@ -126,10 +125,13 @@ void addMesh(const DrawableMesh& mesh, std::size_t index, const MaterialOf& of,
               [&](std::size_t i) { return std::to_string(number[corners[i]]); });
   stage.array("point3f[] points", used.size(),
               [&](std::size_t i) { return triple(mesh.positions[used[i]]); });
+  // The parenthesis closes on a line of its own, as OpenUSD writes it: not all readers know it
+  // inline.
   stage.array(
       "normal3f[] normals", used.size(),
-      [&](std::size_t i) { return triple(mesh.normals[used[i]]); },
-      " (interpolation = \"vertex\")");
+      [&](std::size_t i) { return triple(mesh.normals[used[i]]); }, " (");
+  stage.line("    interpolation = \"vertex\"");
+  stage.line(")");
   stage.line("color3f[] primvars:displayColor = [({}, {}, {})]", colour[0], colour[1], colour[2]);
   stage.line("rel material:binding = </motion/{}/materials/{}>", body, of.name);
   stage.line("uniform token subdivisionScheme = \"none\"");
@@ -182,9 +184,9 @@ void addSound(const MotionSound& sound, Stage& stage) {
   stage.open();
   stage.line("uniform asset filePath = @./{}@", sound.file);
   stage.line("uniform token auralMode = \"nonSpatial\"");
+  // From code 0 to the sound's own end: the schema's fallback for startTime, and what this mode
+  // means. Said with attributes of type timecode, it would keep TinyUSDZ from reading the stage.
   stage.line("uniform token playbackMode = \"onceFromStart\"");
-  stage.line("uniform timecode startTime = 0");
-  stage.line("uniform timecode endTime = {}", sound.duration * kCodesPerSecond);
   stage.close();
 }
 

@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "audit/analytic_motion.h"
-#include "body/object_file.h"
 #include "body/drawable_mesh.h"
+#include "body/object_file.h"
 #include "model/pose_track.h"
 
 namespace ifa {
@@ -62,19 +62,28 @@ struct Parsed {
   }
 };
 
+/// How players turn from one key to the next: along the arc as glTF says, or, as Blender does, each
+/// component by itself.
+enum class Turn { kArc, kChord };
+
 /// The animation as a player sees it, turned back to z up.
 class Player {
  public:
-  explicit Player(const Parsed& file)
-      : times_(file.times()), positions_(file.translations()), rotations_(file.rotations()) {}
+  explicit Player(const Parsed& file, Turn turn = Turn::kArc)
+      : turn_(turn),
+        times_(file.times()),
+        positions_(file.translations()),
+        rotations_(file.rotations()) {}
 
   [[nodiscard]] Pose at(double time) const {
     std::size_t i = 0;
     while (i + 2 < times_.size() && static_cast<double>(times_[i + 1]) < time) ++i;
     const double from = static_cast<double>(times_[i]), to = static_cast<double>(times_[i + 1]);
     const double share = std::clamp((time - from) / (to - from), 0.0, 1.0);
+    const Quaterniond a = rotation(i), b = rotation(i + 1);
+    const Quaterniond chord((1 - share) * a.coeffs() + share * b.coeffs());
     return {position(i) + share * (position(i + 1) - position(i)),
-            rotation(i).slerp(share, rotation(i + 1))};
+            turn_ == Turn::kArc ? a.slerp(share, b) : chord.normalized()};
   }
   [[nodiscard]] Quaterniond rotation(std::size_t i) const {
     const auto at = [&](std::size_t k) { return static_cast<double>(rotations_[4 * i + k]); };
@@ -86,10 +95,12 @@ class Player {
   }
 
  private:
+  Turn turn_;
   std::vector<float> times_, positions_, rotations_;
 };
 
-double surfaceError(const Pose& pose, const MotionSample& truth) {
+template <class Truth>
+double surfaceError(const Pose& pose, const Truth& truth) {
   double worst = 0;
   for (const Vector3d& vertex : box().mesh.vertices) {
     const Vector3d there = pose.position + pose.orientation * vertex;
@@ -99,16 +110,36 @@ double surfaceError(const Pose& pose, const MotionSample& truth) {
 }
 
 void expectFollows(const Motion& motion) {
-  const Player player{Parsed(formatGlb(motion, box()).value())};
-  for (const MotionSample& sample : motion.trajectory) {
-    const double time = sample.time + motion.sound.firstContact;
-    if (time < 0) continue;
-    EXPECT_LT(surfaceError(player.at(time), sample), 1e-4) << "at " << sample.time;
+  const Parsed file(formatGlb(motion, box()).value());
+  const PoseTrack track(motion);
+  for (const Turn turn : {Turn::kArc, Turn::kChord}) {
+    const Player player(file, turn);
+    for (const MotionSample& sample : motion.trajectory) {
+      const double time = sample.time + motion.sound.firstContact;
+      if (time < 0) continue;
+      EXPECT_LT(surfaceError(player.at(time), sample), 1e-4) << "at " << sample.time;
+      const double between = sample.time + 0.5 / 240;  // the chord is furthest off between samples
+      if (between > motion.trajectory.back().time) break;
+      EXPECT_LT(surfaceError(player.at(between + motion.sound.firstContact), track.at(between)),
+                1.1e-4)
+          << "at " << between;
+    }
   }
 }
 
 TEST(Glb, FollowsATumblingMotion) { expectFollows(test::makeTumblingMotion(box())); }
 TEST(Glb, FollowsASlidingMotion) { expectFollows(test::makeSlidingMotion(box())); }
+
+TEST(Glb, FollowsAFastSpin) {
+  test::MotionMaker maker(box());
+  MotionSample start;
+  start.position = {0, 0, 1};
+  start.angularVelocity = {0, 250, 0};  // about a principal axis: an arc at a constant rate
+  maker.begin(start);
+  maker.fly(0.2);
+  maker.listContact();
+  expectFollows(maker.finish());
+}
 
 TEST(Glb, FollowsImpactsInsideAnEvent) {
   Motion motion = test::makeTumblingMotion(box());
@@ -182,6 +213,29 @@ TEST(Glb, HasTheMaterials) {
   EXPECT_EQ(json["meshes"][0]["primitives"].size(), 2u);
 }
 
+TEST(Glb, HasAFloorAndALightWhenAsked) {
+  const Motion motion = test::makeSlidingMotion(box());
+  EXPECT_FALSE(Parsed(formatGlb(motion, box()).value()).json.contains("extensionsUsed"));
+  AnimationSettings settings;
+  settings.floorAndLight = true;
+  const Parsed file(formatGlb(motion, box(), settings).value());
+  EXPECT_EQ(file.json["scenes"][0]["nodes"], Json({0, 1, 2}));
+  EXPECT_EQ(file.json["nodes"][0]["name"], box().definition.name);
+  EXPECT_EQ(file.json["nodes"][1]["name"], "floor");
+  EXPECT_EQ(file.json["extensionsUsed"], Json({"KHR_lights_punctual"}));
+  EXPECT_TRUE(file.json["nodes"][2]["extensions"].contains("KHR_lights_punctual"));
+  const Json& floor = file.json["meshes"][1]["primitives"][0];
+  const Json& range = file.json["accessors"][floor["attributes"]["POSITION"].get<std::size_t>()];
+  EXPECT_EQ(range["min"][1], 0.0);
+  EXPECT_EQ(range["max"][1], 0.0);
+  for (const MotionSample& sample : motion.trajectory) {
+    EXPECT_GT(sample.position.x() - 0.1, range["min"][0]);
+    EXPECT_LT(sample.position.x() + 0.1, range["max"][0]);
+    EXPECT_GT(-sample.position.y() - 0.1, range["min"][2]);
+    EXPECT_LT(-sample.position.y() + 0.1, range["max"][2]);
+  }
+}
+
 TEST(Glb, IsTheSameEveryTime) {
   const Motion motion = test::makeTumblingMotion(box());
   EXPECT_EQ(formatGlb(motion, box()).value(), formatGlb(motion, box()).value());
@@ -204,14 +258,18 @@ TEST(Glb, PassesTheKhronosValidator) {
   const auto folder = std::filesystem::path(testing::TempDir()) / "ifa_glb";
   std::filesystem::create_directories(folder);
   std::string command = "node '" + (here / "validate_glb.mjs").string() + "'";
+  AnimationSettings settings;
   const auto write = [&](const std::string& name, const Motion& motion, const Body& body) {
     const std::string path = (folder / (name + ".glb")).string();
-    ASSERT_TRUE(writeGlb(path, motion, body).has_value());
+    ASSERT_TRUE(writeGlb(path, motion, body, settings).has_value());
     command += " '" + path + "'";
   };
   const Motion sliding = test::makeSlidingMotion(box());
   write("tumbling", test::makeTumblingMotion(box()), box());
   write("sliding", sliding, box());
+  settings.floorAndLight = true;
+  write("floor_and_light", sliding, box());
+  settings.floorAndLight = false;
   const auto objects = listObjects();
   ASSERT_TRUE(objects.has_value());
   for (const std::string& name : *objects) write(name, sliding, loadObject(name).value());

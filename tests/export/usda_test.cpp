@@ -118,10 +118,16 @@ TEST_F(Usda, GivesEveryMaterialAMeshOfItsOwn) {
   EXPECT_THAT(text_, HasSubstr("faceVertexCounts = [3, 3]\n"));
 }
 
+TEST_F(Usda, IsPlainEnoughForOtherReaders) {
+  EXPECT_THAT(text_, HasSubstr("] (\n                interpolation = \"vertex\"\n            )\n"));
+  EXPECT_THAT(text_, Not(HasSubstr("timecode ")));
+}
+
 TEST_F(Usda, PlaysTheSoundWhereThereIsOne) {
   EXPECT_THAT(text_, HasSubstr("def SpatialAudio \"sound\""));
   EXPECT_THAT(text_, HasSubstr("filePath = @./sound.wav@"));
   EXPECT_THAT(text_, HasSubstr("auralMode = \"nonSpatial\""));
+  EXPECT_THAT(text_, HasSubstr("playbackMode = \"onceFromStart\""));
   motion_.sound.file.clear();
   EXPECT_THAT(formatUsda(motion_, body_).value(), Not(HasSubstr("SpatialAudio")));
 }
