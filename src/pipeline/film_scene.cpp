@@ -33,7 +33,7 @@ RenderSettings settingsOf(const FilmOptions& options, const std::vector<FilmPart
   RenderSettings settings = qualityOf(options.final);
   settings.width = width;
   settings.height = options.height;
-  settings.camera = options.camera;
+  settings.camera = options.camera.value_or(CameraKind::kAuto);
   settings.shutterSeconds = options.shutter / options.framesPerSecond * options.speed;
   settings.surface = options.floor.empty() ? parts.front().motion->object.surface : options.floor;
   if (options.overlay) settings.margins.bottom += static_cast<float>(render::Overlay::kShare);
@@ -129,6 +129,11 @@ Image FilmScene::picture(double time) const {
   if (views_.size() == 1) return views_.front().renderer->render(time);
   Image whole(options_.width, options_.height);
   for (const View& view : views_) paste(view.renderer->render(time), whole, view.left);
+  nameViews(whole);
+  return whole;
+}
+
+void FilmScene::nameViews(Image& whole) const {
   render::Canvas canvas(whole);
   const double size = std::max(10.0, options_.height / 26.0);
   for (const View& view : views_) {
@@ -136,7 +141,6 @@ Image FilmScene::picture(double time) const {
     canvas.text(view.left + size, 1.7 * size, size, render::Align::kLeft, view.name,
                 {1, 1, 1, 0.85});
   }
-  return whole;
 }
 
 bool FilmScene::sameAt(double time, double other) const {

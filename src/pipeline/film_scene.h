@@ -44,6 +44,8 @@ class FilmScene {
   void finish(Image& picture, double time) const;
 
  private:
+  void nameViews(Image& whole) const;
+
   struct View {
     std::unique_ptr<render::FrameRenderer> renderer;
     int left = 0;
