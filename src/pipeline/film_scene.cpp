@@ -118,7 +118,7 @@ FilmScene::FilmScene(const std::vector<FilmPart>& parts, const Sound* sound,
       std::max(1.0, std::ceil(seconds / options.speed * options.framesPerSecond)));
   if (!options.overlay) return;
   overlay_.emplace(first, sound != nullptr ? *sound : Sound{}, seconds, options.speed,
-                   options.width, options.height);
+                   options.speed / options.framesPerSecond, options.width, options.height);
 }
 
 double FilmScene::timeOf(std::size_t frame) const {
