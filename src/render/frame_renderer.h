@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "model/image.h"
+#include "render/body_shader.h"
 #include "render/camera.h"
 #include "render/floor_light.h"
-#include "render/floor_texture.h"
+#include "render/floor_view.h"
 #include "render/moment.h"
-#include "render/studio.h"
 #include "render/tone.h"
 
 namespace ifa::render {
@@ -34,6 +34,8 @@ struct RenderSettings {
 class FrameRenderer {
  public:
   FrameRenderer(std::vector<Actor> actors, const RenderSettings& settings);
+  FrameRenderer(const FrameRenderer&) = delete;
+  FrameRenderer& operator=(const FrameRenderer&) = delete;
 
   /// The picture with the shutter's opening centred at `time` (s of the stage). Thread safe, and
   /// the same whatever is drawn beside it.
@@ -45,26 +47,8 @@ class FrameRenderer {
   [[nodiscard]] long rays() const { return rays_.load(); }
 
  private:
-  struct FloorPoint {
-    Colour albedo;
-    float x = 0, y = 0;
-    float pool = 1;      ///< share of the light that falls this far from the middle
-    float mirrored = 0;  ///< share of the sky that the floor reflects towards the eye
-  };
   struct Picture;  // one frame in the making
 
-  [[nodiscard]] float pool(float x, float y) const;
-  [[nodiscard]] FloorPoint floorPoint(const Camera& camera, int x, int y) const;
-  [[nodiscard]] std::vector<FloorPoint> floorLayer(const Camera& camera) const;
-  [[nodiscard]] Colour litFloor(const Picture& picture, const FloorPoint& point,
-                                const Vector& view) const;
-  [[nodiscard]] Colour floorSeenFrom(const Picture& picture, const Ray& ray, float blur) const;
-  [[nodiscard]] Colour mirroredInFloor(const Picture& picture, const FloorPoint& point,
-                                       const Vector& view, int x, int y) const;
-  [[nodiscard]] Colour around(const Picture& picture, const Ray& ray, const Sample& sample,
-                              std::size_t except, float blur, bool sharp) const;
-  [[nodiscard]] Colour shade(const Picture& picture, const Ray& ray, const SurfaceHit& hit,
-                             const Sample& sample, std::size_t self) const;
   [[nodiscard]] Colour pixel(const Picture& picture, const FloorPoint& point, int x, int y) const;
   void draw(Picture& picture, const std::vector<FloorPoint>& layer) const;
   void light(Picture& picture) const;
@@ -73,9 +57,9 @@ class FrameRenderer {
   std::vector<Actor> actors_;
   RenderSettings settings_;
   SampleTable samples_;
-  FloorTexture texture_;
   CameraPath path_;
-  Studio studio_;
+  FloorView floor_;
+  BodyShader shader_;
   ScreenCurve curve_;
   std::vector<FloorPoint> stillFloor_;  ///< of a camera that stands still
   Image stillImage_;
