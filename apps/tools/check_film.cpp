@@ -6,8 +6,11 @@
 //
 // A contact is a kink: the body's row in the picture falls, then at once rises. The camera stands
 // still and looks down, so the row tells of height and depth together; but in flight both change as
-// height and depth of a thrown body do, and the row's acceleration is constant but for the mild
-// perspective. Only an impact makes the velocity jump, whichever of the two it is in.
+// those of a thrown body do, and the row's acceleration is constant but for the mild perspective.
+// Only an impact makes the velocity jump, whichever of the two it is in. The instant between two
+// pictures is where the parabolas before and after meet. A bounce is compared when the pictures
+// tell it: four of flight on either side that lie on the parabolas. Neither rolling nor contacts
+// that follow within three pictures have that; slow motion shows more of them.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -43,9 +46,9 @@ struct Frame {
 
 double medianOf(std::vector<double> values) {
   if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
 }
 
 /// The picture without the body: each value's median over frames in which the body falls and stays
@@ -83,7 +86,7 @@ struct Piece {
   bool cut = false;          // reaches the picture's edge
 };
 
-/// Sum of the places, extent and count of a piece on one row.
+/// First and last column of a piece on one row.
 struct Span {
   double left = 1e9, right = -1;
 };
@@ -162,11 +165,11 @@ std::vector<std::optional<double>> readRows(int width, int height) {
 }
 // ---- Contacts ----
 
-/// A film's times are frames, from here on.
+/// A kink. Times are frames, velocities rows per frame, downwards positive.
 struct Contact {
   double frame = 0;              // of the impact, between pictures
   double row = 0;                // there
-  double before = 0, after = 0;  // rows per frame; downwards is positive
+  double before = 0, after = 0;  // velocities
   double rebound = 0;            // rows from the impact up to the highest picture that follows
   double residual = 1e9;         // of the fit, rows
   int pictures = 0;              // that the flight before or after has, whichever has fewer
@@ -181,9 +184,8 @@ struct Contact {
 
 class Path {
  public:
-  /// @param step  pictures that are compared lie so far apart; more in slow motion, where
-  /// neighbours
-  ///   differ by less than a body's turning moves the centroid of what is seen
+  /// @param step  distance of pictures that are compared: more in slow motion, where neighbours
+  ///   differ by less than what a body's turning moves its outline
   Path(std::vector<std::optional<double>> rows, int step) : rows_(std::move(rows)), step_(step) {
     for (int k = 0; k < count(); ++k) bends_.push_back(bendAt(k));
     gravity_ = findGravity();
