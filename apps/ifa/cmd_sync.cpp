@@ -10,6 +10,7 @@
 #include "command.h"
 #include "ifa/synchronize.h"
 #include "pipeline/batch.h"
+#include "pipeline/output_files.h"
 
 namespace ifa::cli {
 
@@ -19,7 +20,8 @@ namespace {
 
 struct SyncOptions {
   SynchronizeSettings settings;
-  std::string formats = "json,glb";
+  OutputSettings files;
+  std::string formats = filmsCanBeWritten() ? "json,glb,mp4" : "json,glb";
   fs::path output;
   bool noTerminal = false;
 };
@@ -28,15 +30,14 @@ Result<std::set<OutputFormat>> parseFormats(const std::string& list) {
   static const std::map<std::string, OutputFormat> kKnown = {{"json", OutputFormat::kJson},
                                                              {"glb", OutputFormat::kGlb},
                                                              {"csv", OutputFormat::kCsv},
-                                                             {"usda", OutputFormat::kUsda}};
+                                                             {"usda", OutputFormat::kUsda},
+                                                             {"mp4", OutputFormat::kMp4}};
   std::set<OutputFormat> formats;
   for (const auto& name : CLI::detail::split(list, ',')) {
     const auto found = kKnown.find(name);
     if (found == kKnown.end()) {
-      const std::string what = name == "mp4" ? "films (mp4) are not made by this version"
-                                             : "\"" + name + "\" is not a format";
-      return tl::unexpected<Error>(
-          {ErrorCode::kUsage, what, "--formats", "choose from json, glb, usda, csv"});
+      return tl::unexpected<Error>({ErrorCode::kUsage, "\"" + name + "\" is not a format",
+                                    "--formats", "choose from json, glb, mp4, usda, csv"});
     }
     formats.insert(found->second);
   }
@@ -55,19 +56,16 @@ void showTake(Console& console, const Motion& motion, const fs::path& folder) {
   console.result(fmt::format("{} on {}: {}", motion.object.name, motion.object.surface,
                              motion.success ? describe(motion) : "no acceptable motion"));
   for (const auto& entry : fs::directory_iterator(folder)) {
-    const fs::path stem = entry.path().stem();
-    if (stem == "motion" || stem == "timeline" || stem == "contacts" ||
-        entry.path().filename() == motion.sound.file) {
-      console.result("  " + entry.path().string());
-    }
+    const std::string name = entry.path().filename().string();
+    if (roleOf(name) != "object") console.result("  " + entry.path().string());
   }
 }
 
-int syncSound(const SyncOptions& options, const std::set<OutputFormat>& formats,
-              CommandContext& context) {
+int syncSound(const SyncOptions& options, CommandContext& context) {
   const auto result =
-      synchronizeToFolder(options.settings, options.output, formats, context.progress);
+      synchronizeToFolder(options.settings, options.output, options.files, context.progress);
   if (!result) return context.fail(result.error());
+  for (const std::string& warning : result->warnings) context.console.warn(warning);
   const auto& takes = result->takes;
   const auto wanted = static_cast<std::size_t>(options.settings.takes);
   for (std::size_t i = 0; i < takes.size(); ++i) {
@@ -84,8 +82,7 @@ int syncSound(const SyncOptions& options, const std::set<OutputFormat>& formats,
   return context.succeed(options.output.string());
 }
 
-int syncFolder(const SyncOptions& options, const std::set<OutputFormat>& formats,
-               CommandContext& context) {
+int syncFolder(const SyncOptions& options, CommandContext& context) {
   if (!options.settings.labels.empty()) {
     return context.fail({ErrorCode::kUsage, "does not go with a folder of sounds", "--labels",
                          "put NAME.txt beside NAME.wav"});
@@ -98,8 +95,8 @@ int syncFolder(const SyncOptions& options, const std::set<OutputFormat>& formats
     context.console.result(result.item.name + ": " + (failed ? "FAILED" : result.message));
     if (failed) failures.push_back(result);
   };
-  const auto results =
-      synchronizeAll(*sounds, options.settings, options.output, formats, context.progress, tell);
+  const auto results = synchronizeAll(*sounds, options.settings, options.output, options.files,
+                                      context.progress, tell);
   if (context.progress.stopRequested()) return interrupted(context, "what was finished is kept");
   context.console.result(
       fmt::format("{} of {} solved", results.size() - failures.size(), results.size()));
@@ -115,9 +112,10 @@ int runSync(SyncOptions options, CommandContext& context) {
   if (options.noTerminal) options.settings.terminal = false;
   const auto formats = parseFormats(options.formats);
   if (!formats) return context.fail(formats.error());
+  options.files.formats = *formats;
   std::error_code code;
   const bool isFolder = fs::is_directory(options.settings.sound, code);
-  return isFolder ? syncFolder(options, *formats, context) : syncSound(options, *formats, context);
+  return isFolder ? syncFolder(options, context) : syncSound(options, context);
 }
 
 void addSearchOptions(CLI::App& command, SyncOptions& options) {
@@ -160,8 +158,14 @@ void addSyncCommand(CLI::App& app, CommandContext& context) {
                    "seconds of flight before the first contact")
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();
-  command->add_option("--formats", options->formats, "list of json, glb, usda, csv")
+  command->add_option("--formats", options->formats, "list of json, glb, mp4, usda, csv")
       ->capture_default_str();
+  command
+      ->add_option("--fps", options->files.film.framesPerSecond,
+                   "frames per second of the film (ifa render has more options)")
+      ->check(numberFrom(1, 240))
+      ->capture_default_str();
+  command->add_flag("--glb-set", options->files.glbSet, "a floor and a light in motion.glb");
   command->callback([options, &context] {
     context.action = [options, &context] { return runSync(*options, context); };
   });

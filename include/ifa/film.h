@@ -33,6 +33,9 @@ struct FilmOptions {
   std::string floor;        ///< desk, wood or carpet; empty: what the first motion's surface is
 };
 
+/// False in a build without libav: films cannot be written, everything else can.
+[[nodiscard]] bool filmsCanBeWritten();
+
 /// Renders motions as `output` says: NAME.mp4 a film, NAME.png a contact sheet (one picture a
 /// contact, with its time), any other name a folder of numbered PNG files with the sound beside
 /// them. Motions start together at their first contacts; the first one's sound is heard.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ifa/contact_signature.h"
+#include "ifa/film.h"
 #include "ifa/motion.h"
 #include "ifa/progress.h"
 #include "ifa/result.h"
@@ -38,9 +39,10 @@ struct SynchronizeSettings {
 /// The motions found for one sound, best first; where none is acceptable, the best partial one,
 /// with `success` false and `failure` saying why.
 struct Synchronization {
-  ContactSignature signature;  ///< the targets
-  std::vector<Motion> takes;   ///< at least one
-  bool interrupted = false;    ///< asked to stop before all takes were found
+  ContactSignature signature;         ///< the targets
+  std::vector<Motion> takes;          ///< at least one
+  bool interrupted = false;           ///< asked to stop before all takes, or their films, were done
+  std::vector<std::string> warnings;  ///< what the user should know of the files; mostly empty
 };
 
 /// Files of one motion; motion.json is always among them.
@@ -49,6 +51,14 @@ enum class OutputFormat {
   kGlb,   ///< motion.glb
   kCsv,   ///< motion.csv and contacts.csv
   kUsda,  ///< motion.usda
+  kMp4,   ///< motion.mp4
+};
+
+/// Which files are written, and how.
+struct OutputSettings {
+  std::set<OutputFormat> formats = {OutputFormat::kJson, OutputFormat::kGlb, OutputFormat::kMp4};
+  FilmOptions film;     ///< of motion.mp4
+  bool glbSet = false;  ///< a floor and a light in motion.glb
 };
 
 /// Finds motions whose contacts fall on the contacts of the sound (docs/method.md).
@@ -58,13 +68,13 @@ enum class OutputFormat {
                                                   const Progress& progress = {});
 
 /// The same, written to `folder` (docs/file-formats.md): motion.json, sound.wav, timeline.svg, the
-/// object with its mesh, and what `formats` names; when several takes are wanted, each goes to
+/// object with its mesh, and what `output` names; when several takes are wanted, each goes to
 /// take-1/, take-2/ and so on. Files appear only when all is done; those of an earlier run are
 /// replaced. Errors: as above, and kBadInput when the folder cannot be written (told before the
 /// search).
 [[nodiscard]] Result<Synchronization> synchronizeToFolder(const SynchronizeSettings& settings,
                                                           const std::filesystem::path& folder,
-                                                          const std::set<OutputFormat>& formats,
+                                                          const OutputSettings& output,
                                                           const Progress& progress = {});
 
 }  // namespace ifa

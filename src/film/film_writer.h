@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "ifa/film.h"  // filmsCanBeWritten()
 #include "ifa/result.h"
 #include "model/image.h"
 #include "sound/sound.h"
@@ -24,9 +25,6 @@ struct FilmSettings {
   /// Names of libav's video encoders: the first that there is, that takes 4:2:0 pictures and opens.
   std::vector<std::string> encoders = {"libx264", "libopenh264", "mpeg4"};
 };
-
-/// False in a build without libav: films cannot be written, everything else can.
-[[nodiscard]] bool filmsCanBeWritten();
 
 /// Writes a film frame by frame: MP4 with its table of contents in front, H.264 (BT.709) and AAC
 /// (48 kHz, mono or stereo). Frame k is shown from k/framesPerSecond s on; the sound's first sample

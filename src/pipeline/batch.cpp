@@ -11,6 +11,7 @@
 
 #include "base/version.h"
 #include "export/motion_json.h"
+#include "pipeline/output_files.h"
 
 namespace ifa {
 
@@ -52,7 +53,17 @@ std::vector<fs::path> motionFiles(const fs::path& folder, int takes) {
   return files;
 }
 
-bool isDone(const BatchItem& item, const SynchronizeSettings& settings, const fs::path& folder) {
+// A film that was interrupted, or was not asked for then, is missing.
+bool holds(const fs::path& folder, const OutputSettings& output) {
+  return std::all_of(kOutputFiles.begin(), kOutputFiles.end(), [&](const OutputFile& file) {
+    std::error_code code;
+    return !file.format || output.formats.count(*file.format) == 0 ||
+           fs::is_regular_file(folder / file.name, code);
+  });
+}
+
+bool isDone(const BatchItem& item, const SynchronizeSettings& settings, const fs::path& folder,
+            const OutputSettings& output) {
   for (const auto& file : motionFiles(folder, settings.takes)) {
     std::error_code code;
     const auto written = fs::last_write_time(file, code);
@@ -62,18 +73,18 @@ bool isDone(const BatchItem& item, const SynchronizeSettings& settings, const fs
                       motion->program == programVersion() && motion->planner == settings.planner &&
                       motion->object.name == fs::path(settings.object).stem().string() &&
                       (settings.surface.empty() || motion->object.surface == settings.surface);
-    if (!same) return false;
+    if (!same || !holds(file.parent_path(), output)) return false;
   }
   return true;
 }
 
 BatchResult synchronizeOne(const BatchItem& item, SynchronizeSettings settings,
-                           const fs::path& folder, const std::set<OutputFormat>& formats,
+                           const fs::path& folder, const OutputSettings& output,
                            const Progress& progress) {
   settings.sound = item.sound;
   settings.labels = item.labels;
-  if (isDone(item, settings, folder)) return {item, BatchOutcome::kSkipped, "done before"};
-  const auto result = synchronizeToFolder(settings, folder, formats, progress);
+  if (isDone(item, settings, folder, output)) return {item, BatchOutcome::kSkipped, "done before"};
+  const auto result = synchronizeToFolder(settings, folder, output, progress);
   if (!result) return {item, BatchOutcome::kFailed, result.error().text()};
   const Motion& best = result->takes.front();
   if (!best.success) return {item, BatchOutcome::kFailed, best.failure};
@@ -108,8 +119,7 @@ Result<std::vector<BatchItem>> findSounds(const fs::path& folder) {
 
 std::vector<BatchResult> synchronizeAll(const std::vector<BatchItem>& sounds,
                                         const SynchronizeSettings& settings, const fs::path& folder,
-                                        const std::set<OutputFormat>& formats,
-                                        const Progress& progress,
+                                        const OutputSettings& output, const Progress& progress,
                                         const std::function<void(const BatchResult&)>& tell) {
   std::vector<BatchResult> results;
   for (std::size_t i = 0; i < sounds.size() && !progress.stopRequested(); ++i) {
@@ -117,7 +127,7 @@ std::vector<BatchResult> synchronizeAll(const std::vector<BatchItem>& sounds,
     inner.report = [&](std::string_view stage, double share) {
       progress(fmt::format("[{}/{}] {}: {}", i + 1, sounds.size(), sounds[i].name, stage), share);
     };
-    results.push_back(synchronizeOne(sounds[i], settings, folder / sounds[i].name, formats, inner));
+    results.push_back(synchronizeOne(sounds[i], settings, folder / sounds[i].name, output, inner));
     if (tell) tell(results.back());
   }
   return results;

@@ -37,8 +37,8 @@ struct BatchResult {
 /// @param tell  called after each
 [[nodiscard]] std::vector<BatchResult> synchronizeAll(
     const std::vector<BatchItem>& sounds, const SynchronizeSettings& settings,
-    const std::filesystem::path& folder, const std::set<OutputFormat>& formats,
-    const Progress& progress, const std::function<void(const BatchResult&)>& tell);
+    const std::filesystem::path& folder, const OutputSettings& output, const Progress& progress,
+    const std::function<void(const BatchResult&)>& tell);
 
 /// "12 contacts, score 0.91, bend 0.3 (at most 1.1)".
 [[nodiscard]] std::string describe(const Motion& motion);

@@ -2,12 +2,12 @@
 #include "pipeline/manifest.h"
 
 #include <algorithm>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "base/file.h"
+#include "pipeline/output_files.h"
 
 namespace ifa {
 
@@ -17,17 +17,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kName = "manifest.json";
-
-/// What a file of a take is; what is not named here belongs to the object.
-std::string roleOf(const std::string& name) {
-  static const std::map<std::string, std::string> kRoles = {
-      {"motion.json", "motion"},    {"motion.glb", "animation"},  {"motion.usda", "animation"},
-      {"motion.csv", "trajectory"}, {"contacts.csv", "contacts"}, {"sound.wav", "sound"},
-      {"timeline.svg", "timeline"},
-  };
-  const auto known = kRoles.find(name);
-  return known == kRoles.end() ? "object" : known->second;
-}
 
 }  // namespace
 

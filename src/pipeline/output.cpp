@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "export/glb.h"
@@ -11,6 +12,8 @@
 #include "export/usda.h"
 #include "pipeline/copy_object.h"
 #include "pipeline/manifest.h"
+#include "pipeline/output_files.h"
+#include "pipeline/write_film.h"
 #include "render/timeline.h"
 #include "sound/sound.h"
 
@@ -30,35 +33,62 @@ std::size_t silenceBefore(const Motion& motion, const Heard& heard) {
   return missing <= 0 ? 0 : static_cast<std::size_t>(std::ceil(missing * heard.sound->rate));
 }
 
-Result<void> writeSound(const fs::path& folder, const Motion& motion, const Heard& heard) {
-  if (!heard.sound) return writeTimeline(folder / "timeline.svg", motion, Sound{});
-  const Sound used = withLeadingSilence(*heard.sound, silenceBefore(motion, heard));
-  if (auto written = writeWav(folder / kSoundName, used); !written) return written;
-  return writeTimeline(folder / "timeline.svg", motion, used);
+/// One take on its way to its folder.
+struct Take {
+  fs::path folder;
+  const Motion& motion;
+  const Body& body;
+  std::optional<Sound> sound;  ///< as used
+};
+
+Result<void> writeSound(const Take& take) {
+  const fs::path timeline = take.folder / "timeline.svg";
+  if (!take.sound) return writeTimeline(timeline, take.motion, Sound{});
+  if (auto written = writeWav(take.folder / kSoundName, *take.sound); !written) return written;
+  return writeTimeline(timeline, take.motion, *take.sound);
 }
 
-Result<void> writePictures(const fs::path& folder, const Motion& motion, const Body& body,
-                           const std::set<OutputFormat>& formats) {
+Result<void> writeFilmOf(const Take& take, const OutputSettings& output, const Progress& progress,
+                         std::vector<std::string>& warnings) {
+  const FilmPart part{&take.motion, &take.body, take.motion.object.name};
+  const auto told = writeFilm(take.folder / "motion.mp4", {part},
+                              take.sound ? &*take.sound : nullptr, output.film, progress);
+  if (!told && told.error().code != ErrorCode::kInterrupted) return tl::unexpected(told.error());
+  if (told && !told->empty()) warnings.push_back(*told);
+  return {};
+}
+
+Result<void> writePictures(const Take& take, const OutputSettings& output, const Progress& progress,
+                           std::vector<std::string>& warnings) {
+  const auto wanted = [&](OutputFormat format) { return output.formats.count(format) > 0; };
   Result<void> written;
-  if (formats.count(OutputFormat::kGlb) > 0)
-    written = writeGlb(folder / "motion.glb", motion, body);
-  if (written && formats.count(OutputFormat::kUsda) > 0) {
-    written = writeUsda(folder / "motion.usda", motion, body);
+  if (wanted(OutputFormat::kGlb)) {
+    AnimationSettings settings;
+    settings.floorAndLight = output.glbSet;
+    written = writeGlb(take.folder / "motion.glb", take.motion, take.body, settings);
   }
-  if (written && formats.count(OutputFormat::kCsv) > 0) written = writeCsv(folder, motion);
+  if (written && wanted(OutputFormat::kUsda)) {
+    written = writeUsda(take.folder / "motion.usda", take.motion, take.body);
+  }
+  if (written && wanted(OutputFormat::kCsv)) written = writeCsv(take.folder, take.motion);
+  if (written && wanted(OutputFormat::kMp4)) {
+    written = writeFilmOf(take, output, progress, warnings);
+  }
   return written;
 }
 
-Result<void> writeTake(const fs::path& folder, const Motion& motion, const Body& body,
-                       const Heard& heard, const std::set<OutputFormat>& formats) {
-  if (auto written = copyObject(body.definition, folder); !written) return written;
-  if (auto written = writeSound(folder, motion, heard); !written) return written;
+Result<void> writeTake(const Take& take, const OutputSettings& output, const Progress& progress,
+                       std::vector<std::string>& warnings) {
+  if (auto written = copyObject(take.body.definition, take.folder); !written) return written;
+  if (auto written = writeSound(take); !written) return written;
   // A search that did not get to a first contact has nothing to show, only a reason.
-  if (!motion.trajectory.empty()) {
-    if (auto written = writePictures(folder, motion, body, formats); !written) return written;
+  if (!take.motion.trajectory.empty()) {
+    if (auto written = writePictures(take, output, progress, warnings); !written) return written;
   }
-  if (auto written = writeMotionJson(folder / "motion.json", motion); !written) return written;
-  return writeManifest(folder, motion);
+  if (auto written = writeMotionJson(take.folder / "motion.json", take.motion); !written) {
+    return written;
+  }
+  return writeManifest(take.folder, take.motion);
 }
 
 std::string takeName(std::size_t index) { return "take-" + std::to_string(index + 1); }
@@ -79,27 +109,41 @@ void placeInSound(Motion& motion, const Heard& heard) {
   }
 }
 
-Result<void> writeTakes(const fs::path& folder, const std::vector<Motion>& takes, bool numbered,
-                        const Body& body, const Heard& heard,
-                        const std::set<OutputFormat>& formats) {
-  if (!numbered) return writeTake(folder, takes.front(), body, heard, formats);
-  for (std::size_t i = 0; i < takes.size(); ++i) {
-    const fs::path place = folder / takeName(i);
-    std::error_code code;
-    fs::create_directory(place, code);
-    if (code) return badInput("cannot be made: " + code.message(), place.string());
-    if (auto written = writeTake(place, takes[i], body, heard, formats); !written) return written;
+Result<void> checkOutput(const OutputSettings& output) {
+  if (output.formats.count(OutputFormat::kMp4) == 0) return {};
+  if (!filmsCanBeWritten()) {
+    return tl::unexpected<Error>({ErrorCode::kUsage, "this build writes no films", "mp4",
+                                  "leave mp4 out of the formats, or build with libav"});
   }
-  return {};
+  return checkFilmOptions(withSize(output.film));
+}
+
+Result<std::vector<std::string>> writeTakes(const fs::path& folder,
+                                            const std::vector<Motion>& takes, bool numbered,
+                                            const Body& body, const Heard& heard,
+                                            const OutputSettings& output,
+                                            const Progress& progress) {
+  std::vector<std::string> warnings;
+  const std::size_t count = numbered ? takes.size() : 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    Take take{numbered ? folder / takeName(i) : folder, takes[i], body, {}};
+    std::error_code code;
+    fs::create_directory(take.folder, code);
+    if (code) return badInput("cannot be made: " + code.message(), take.folder.string());
+    if (heard.sound) {
+      take.sound = withLeadingSilence(*heard.sound, silenceBefore(takes[i], heard));
+    }
+    if (auto written = writeTake(take, output, progress, warnings); !written) {
+      return tl::unexpected(written.error());
+    }
+  }
+  return warnings;
 }
 
 std::vector<fs::path> outputNames() {
   std::vector<fs::path> names;
   const auto add = [&](const fs::path& folder) {
-    for (const char* name : {"motion.json", "motion.glb", "motion.usda", "motion.csv",
-                             "contacts.csv", "timeline.svg", kSoundName}) {
-      names.push_back(folder / name);
-    }
+    for (const OutputFile& file : kOutputFiles) names.push_back(folder / file.name);
   };
   add({});
   for (std::size_t i = 0; i < kMaxTakes; ++i) add(takeName(i));

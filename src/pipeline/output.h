@@ -3,7 +3,8 @@
 #pragma once
 
 #include <filesystem>
-#include <set>
+#include <string>
+#include <vector>
 
 #include "body/body.h"
 #include "ifa/synchronize.h"
@@ -15,13 +16,17 @@ namespace ifa {
 /// silence as the motion needs to begin at or after its first sample.
 void placeInSound(Motion& motion, const Heard& heard);
 
+/// Errors: kUsage, naming the option of the film that is out of range, or that there are no films
+/// in this build.
+[[nodiscard]] Result<void> checkOutput(const OutputSettings& output);
+
 /// Writes the first take into `folder`, or, when they are `numbered`, each into take-1/, take-2/...
-/// of it.
+/// of it. A film that is interrupted is left out.
+/// @return what the user should know; mostly empty
 /// Errors: those of the writers.
-[[nodiscard]] Result<void> writeTakes(const std::filesystem::path& folder,
-                                      const std::vector<Motion>& takes, bool numbered,
-                                      const Body& body, const Heard& heard,
-                                      const std::set<OutputFormat>& formats);
+[[nodiscard]] Result<std::vector<std::string>> writeTakes(
+    const std::filesystem::path& folder, const std::vector<Motion>& takes, bool numbered,
+    const Body& body, const Heard& heard, const OutputSettings& output, const Progress& progress);
 
 /// Errors: kUsage when writing to `folder` would replace one of `inputs` or a file of the object.
 [[nodiscard]] Result<void> refuseToOverwrite(const std::filesystem::path& folder,

@@ -163,7 +163,7 @@ Result<Synchronization> run(const SynchronizeSettings& settings, const Job& job,
                             const Progress& progress) {
   auto found = search(settings, job, progress);
   if (!found) return tl::unexpected(found.error());
-  Synchronization result{job.heard.signature, {}, found->interrupted};
+  Synchronization result{job.heard.signature, {}, found->interrupted, {}};
   for (const Plan& plan : found->plans) {
     auto motion = makeTake(settings, job, *found, plan);
     if (!motion) return tl::unexpected(motion.error());
@@ -184,8 +184,7 @@ Result<Synchronization> synchronize(const SynchronizeSettings& settings, const P
 }
 
 Result<Synchronization> synchronizeToFolder(const SynchronizeSettings& settings,
-                                            const fs::path& folder,
-                                            const std::set<OutputFormat>& formats,
+                                            const fs::path& folder, const OutputSettings& output,
                                             const Progress& progress) {
   auto job = prepare(settings);
   if (!job) return tl::unexpected(job.error());
@@ -193,15 +192,21 @@ Result<Synchronization> synchronizeToFolder(const SynchronizeSettings& settings,
   if (auto good = refuseToOverwrite(folder, inputs, job->body.definition); !good) {
     return tl::unexpected(good.error());
   }
+  if (auto good = checkOutput(output); !good) return tl::unexpected(good.error());
   auto staged = StagedFolder::open(folder);
   if (!staged) return tl::unexpected(staged.error());
   learn(*job, progress);
   auto result = run(settings, *job, progress);
   if (!result) return result;
-  auto written =
-      writeTakes(staged->path(), result->takes, settings.takes > 1, job->body, job->heard, formats);
-  if (written) written = staged->commit("motion.json", outputNames());
-  if (!written) return tl::unexpected(written.error());
+  const auto told = writeTakes(staged->path(), result->takes, settings.takes > 1, job->body,
+                               job->heard, output, progress);
+  if (!told) return tl::unexpected(told.error());
+  if (auto good = staged->commit("motion.json", outputNames()); !good) {
+    return tl::unexpected(good.error());
+  }
+  result->warnings = *told;
+  // A film that was not finished is missed; what was found is written all the same.
+  result->interrupted = result->interrupted || progress.stopRequested();
   return result;
 }
 

@@ -15,10 +15,11 @@ namespace {
 
 constexpr double kCreaseDegrees = 30;  // as in the animation files
 constexpr std::size_t kMostFinishes = 256;
-// A mesh is taken for convex when no vertex lies further behind a triangle than this times the
-// radius... seen from outside: nothing stands out of any face's plane.
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+// What stands out of a triangle's plane by less than this times the radius does not shade it.
 constexpr double kFlat = 1e-4;
-constexpr std::size_t kMostConvexTriangles = 20000;
+// The work is triangles times corners of the hull.
+constexpr std::size_t kMostTested = 100000;
 
 Finish finishOf(const MeshMaterial& material) {
   Finish finish;
@@ -31,20 +32,42 @@ Finish finishOf(const MeshMaterial& material) {
   return finish;
 }
 
-bool convex(const Mesh& mesh, const std::vector<Eigen::Vector3d>& hull, double radius) {
-  if (mesh.triangles.size() > kMostConvexTriangles) return false;
-  for (const auto& triangle : mesh.triangles) {
-    const auto& a = mesh.vertices[static_cast<std::size_t>(triangle[0])];
-    const auto& b = mesh.vertices[static_cast<std::size_t>(triangle[1])];
-    const auto& c = mesh.vertices[static_cast<std::size_t>(triangle[2])];
-    const Eigen::Vector3d normal = (b - a).cross(c - a);
-    const double length = normal.norm();
-    if (length == 0) continue;
-    for (const auto& corner : hull) {
-      if ((corner - a).dot(normal) > kFlat * radius * length) return false;
-    }
-  }
-  return true;
+/// Whether all corners of the hull lie behind the triangle's plane.
+bool open(const std::array<Vector, 3>& triangle, const std::vector<Eigen::Vector3d>& hull,
+          double radius) {
+  const Eigen::Vector3d a = triangle[0].cast<double>();
+  const Eigen::Vector3d normal =
+      (triangle[1].cast<double>() - a).cross(triangle[2].cast<double>() - a);
+  const double limit = kFlat * radius * normal.norm();
+  return std::all_of(hull.begin(), hull.end(), [&](const Eigen::Vector3d& corner) {
+    return (corner - a).dot(normal) <= limit;
+  });
+}
+
+RTCRay rtcRay(const Ray& ray, float limit) {
+  return {ray.origin.x(),
+          ray.origin.y(),
+          ray.origin.z(),
+          0,
+          ray.direction.x(),
+          ray.direction.y(),
+          ray.direction.z(),
+          0,
+          limit,
+          ~0u,
+          0,
+          0};
+}
+
+/// The nearest hit closer than `limit`; without one, no geometry, and `limit` stays.
+RTCRayHit trace(RTCScene scene, const Ray& ray, float limit) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRayHit query;
+  query.ray = rtcRay(ray, limit);
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(scene, &context, &query);
+  return query;
 }
 
 template <class T>
@@ -87,7 +110,15 @@ BodyGeometry::BodyGeometry(const Body& body) : device_(std::make_unique<Device>(
   for (const auto& p : mesh.positions) {
     radius_ = std::max(radius_, std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]));
   }
-  isConvex_ = convex(body.mesh, body.hull, body.radius);
+  const auto point = [&](std::uint32_t corner) {
+    const auto& p = mesh.positions[corner];
+    return Vector(p[0], p[1], p[2]);
+  };
+  const bool tested = corners_.size() <= kMostTested;
+  for (const auto& c : corners_) {
+    isOpen_.push_back(
+        tested && open({point(c[0]), point(c[1]), point(c[2])}, body.hull, body.radius) ? 1 : 0);
+  }
   RTCGeometry geometry = rtcNewGeometry(device_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* positions = newBuffer<std::array<float, 3>>(geometry, RTC_BUFFER_TYPE_VERTEX,
                                                     RTC_FORMAT_FLOAT3, mesh.positions.size());
@@ -105,23 +136,7 @@ BodyGeometry::~BodyGeometry() = default;
 BodyGeometry::BodyGeometry(BodyGeometry&&) noexcept = default;
 
 bool BodyGeometry::intersect(const Ray& ray, float limit, SurfaceHit& hit) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  RTCRayHit query;
-  query.ray = {ray.origin.x(),
-               ray.origin.y(),
-               ray.origin.z(),
-               0,
-               ray.direction.x(),
-               ray.direction.y(),
-               ray.direction.z(),
-               0,
-               limit,
-               ~0u,
-               0,
-               0};
-  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(device_->scene, &context, &query);
+  const RTCRayHit query = trace(device_->scene, ray, limit);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
   const std::size_t triangle = query.hit.primID;
   const auto normalAt = [&](std::size_t k) {
@@ -131,6 +146,7 @@ bool BodyGeometry::intersect(const Ray& ray, float limit, SurfaceHit& hit) const
   const float u = query.hit.u, v = query.hit.v;
   hit.distance = query.ray.tfar;
   hit.geometric = Vector(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z).normalized();
+  hit.open = isOpen_[triangle] != 0 && hit.geometric.dot(ray.direction) < 0;
   hit.normal = ((1 - u - v) * normalAt(0) + u * normalAt(1) + v * normalAt(2)).normalized();
   if (hit.geometric.dot(ray.direction) > 0) hit.geometric = -hit.geometric;
   if (hit.normal.dot(hit.geometric) < 0) hit.normal = -hit.normal;
@@ -138,21 +154,14 @@ bool BodyGeometry::intersect(const Ray& ray, float limit, SurfaceHit& hit) const
   return true;
 }
 
+float BodyGeometry::distance(const Ray& ray) const {
+  return trace(device_->scene, ray, kInfinity).ray.tfar;
+}
+
 bool BodyGeometry::occludes(const Ray& ray) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  RTCRay query = {ray.origin.x(),
-                  ray.origin.y(),
-                  ray.origin.z(),
-                  0,
-                  ray.direction.x(),
-                  ray.direction.y(),
-                  ray.direction.z(),
-                  0,
-                  std::numeric_limits<float>::infinity(),
-                  ~0u,
-                  0,
-                  0};
+  RTCRay query = rtcRay(ray, kInfinity);
   rtcOccluded1(device_->scene, &context, &query);
   return query.tfar < 0;
 }

@@ -28,6 +28,7 @@ struct SurfaceHit {
   Vector normal;     ///< for shading: smooth where the mesh is
   Vector geometric;  ///< of the triangle; both towards where the ray came from
   const Finish* finish = nullptr;
+  bool open = false;  ///< the whole body lies behind the triangle: it cannot shade this place
 };
 
 /// Immutable, so that any number of threads may trace it.
@@ -41,20 +42,19 @@ class BodyGeometry {
   /// Nearest hit closer than `limit`, in the body frame. False when there is none.
   bool intersect(const Ray& ray, float limit, SurfaceHit& hit) const;
   [[nodiscard]] bool occludes(const Ray& ray) const;
+  /// Distance of the nearest hit, or infinity.
+  [[nodiscard]] float distance(const Ray& ray) const;
   /// Distance of the furthest vertex from the centre of mass, m.
   [[nodiscard]] float radius() const { return radius_; }
-  /// A body that cannot shade itself: rays from its own surface need not be traced against it.
-  [[nodiscard]] bool isConvex() const { return isConvex_; }
 
  private:
   struct Device;
   std::unique_ptr<Device> device_;
   std::vector<std::array<float, 3>> normals_;
   std::vector<std::array<std::uint32_t, 3>> corners_;
-  std::vector<std::uint8_t> finishOf_;  ///< per triangle
+  std::vector<std::uint8_t> finishOf_, isOpen_;  ///< per triangle
   std::vector<Finish> finishes_;
   float radius_ = 0;
-  bool isConvex_ = false;
 };
 
 }  // namespace ifa::render

@@ -19,6 +19,8 @@ class FinishLobe {
         view_(view.dot(frame_.tangent), view.dot(frame_.bitangent),
               std::max(view.dot(normal), 0.02f)) {}
 
+  [[nodiscard]] const Frame& frame() const { return frame_; }
+
   /// Reflected radiance per radiance from `light`, without the cosine.
   [[nodiscard]] Colour reflectance(const Vector& light) const {
     const Vector l = local(light);
@@ -33,14 +35,12 @@ class FinishLobe {
     if (l.z() <= 0) return 0;
     return distribution((l + view_).normalized()) * shadowing(view_) / (4 * view_.z());
   }
-  /// A direction by the lobe. `weight`: reflectance times cosine over density.
-  [[nodiscard]] Vector sample(float u, float v, Colour& weight) const {
+  /// A direction by the lobe, for an even point of the unit disc.
+  /// @param weight  set to reflectance times cosine over density
+  [[nodiscard]] Vector sample(float x, float y, Colour& weight) const {
     const float a = finish_.alpha;
     const Frame stretched(Vector(a * view_.x(), a * view_.y(), view_.z()).normalized());
-    const float radius = std::sqrt(u), angle = 2 * kPi * v;
-    const float x = radius * std::cos(angle);
     const float lifted = 0.5f * (1 + stretched.normal.z());
-    float y = radius * std::sin(angle);
     // Half of the disc is seen from the side: Heitz's warp, in a frame whose first axis is level.
     const float level = std::hypot(stretched.normal.x(), stretched.normal.y());
     const Vector first =

@@ -134,22 +134,24 @@ void FloorLight::lightKey(const ActorMoment& actor, const Studio& studio,
                            actor.centre().y() - height * towards.y(), reach, step);
   std::vector<Blockers> blockers(key_.values.size());
   const int count = std::min(settings.keyRays, samples.perPixel());
-  SurfaceHit hit;
+  std::vector<Vector> towardsKey;
+  towardsKey.reserve(samples.all().size());
+  for (const Sample& s : samples.all()) towardsKey.push_back(studio.towardsKey(s.key0, s.key1));
   for (int row = 0; row < key_.rows; ++row) {
     for (int column = 0; column < key_.columns; ++column) {
       const Vector place(key_.left + (static_cast<float>(column) + 0.5f) * key_.step,
                          key_.low + (static_cast<float>(row) + 0.5f) * key_.step, 0);
       const auto index = static_cast<std::size_t>(row * key_.columns + column);
-      const Sample* sample = samples.at(column, row);
+      const std::size_t first = samples.indexAt(column, row);
       Blockers& blocked = blockers[index];
       for (int i = 0; i < count; ++i) {
-        const Sample& s = sample[i];
-        const Ray ray{place, studio.towardsKey(s.key0, s.key1)};
+        const Sample& s = samples.all()[first + static_cast<std::size_t>(i)];
         if (s.choice >= actor.presence()) continue;
-        if (actor.intersect(ray, s.instant, std::numeric_limits<float>::infinity(), hit)) {
-          blocked.hits += 1;
-          blocked.inverse += 1 / std::max(hit.distance, 1e-5f);
-        }
+        const float distance =
+            actor.distance({place, towardsKey[first + static_cast<std::size_t>(i)]}, s.instant);
+        if (distance == std::numeric_limits<float>::infinity()) continue;
+        blocked.hits += 1;
+        blocked.inverse += 1 / std::max(distance, 1e-5f);
       }
       key_.values[index] = 1 - blocked.hits / static_cast<float>(count);
     }
@@ -186,8 +188,8 @@ void FloorLight::lightAmbient(const ActorMoment& actor, const Studio& studio,
       Blockers& blocked = blockers[index];
       for (int i = 0; i < count; ++i) {
         const Sample& s = sample[i];
-        const Ray ray{place, cosineDirection(up, s.diffuse0, s.diffuse1)};
         if (s.choice >= actor.presence()) continue;
+        const Ray ray{place, cosineDirection(up, s.diffuseX, s.diffuseY)};
         if (!actor.intersect(ray, s.instant, std::numeric_limits<float>::infinity(), hit)) continue;
         blocked.hits += 1;
         blocked.inverse += 1 / std::max(hit.distance, 1e-5f);

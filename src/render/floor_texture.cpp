@@ -2,6 +2,8 @@
 #include "render/floor_texture.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <functional>
 
 #include "base/parallel.h"
 
@@ -22,79 +24,115 @@ std::uint32_t hashed(std::uint32_t x, std::uint32_t y, std::uint32_t seed) {
 
 float unit(std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
 
-int wrapped(int i, int period) { return ((i % period) + period) % period; }
+float mixed(float a, float b, float share) { return a + share * (b - a); }
 
-/// Smooth noise in [0, 1] on a lattice of `columns` by `rows` cells that repeats with the tile.
-float noise(float u, float v, int columns, int rows, std::uint32_t seed) {
-  const float x = u * static_cast<float>(columns), y = v * static_cast<float>(rows);
-  const int i = static_cast<int>(std::floor(x)), k = static_cast<int>(std::floor(y));
-  const float a = smoothStep(0, 1, x - static_cast<float>(i));
-  const float b = smoothStep(0, 1, y - static_cast<float>(k));
-  const auto corner = [&](int di, int dk) {
-    return unit(hashed(static_cast<std::uint32_t>(wrapped(i + di, columns)),
-                       static_cast<std::uint32_t>(wrapped(k + dk, rows)), seed));
-  };
-  return (corner(0, 0) * (1 - a) + corner(1, 0) * a) * (1 - b) +
-         (corner(0, 1) * (1 - a) + corner(1, 1) * a) * b;
-}
+/// Smooth noise in [0, 1] on a lattice that repeats with the tile.
+class Noise {
+ public:
+  Noise(int columns, int rows, std::uint32_t seed) : columns_(columns), rows_(rows) {
+    // One column and row more than there are cells: the first ones again.
+    for (int y = 0; y <= rows; ++y) {
+      for (int x = 0; x <= columns; ++x) {
+        values_.push_back(unit(hashed(static_cast<std::uint32_t>(x % columns),
+                                      static_cast<std::uint32_t>(y % rows), seed)));
+      }
+    }
+  }
+  /// @param u, v  in [0, 1)
+  float operator()(float u, float v) const {
+    const float x = u * static_cast<float>(columns_), y = v * static_cast<float>(rows_);
+    const auto i = static_cast<int>(x), k = static_cast<int>(y);
+    const float a = eased(x - static_cast<float>(i)), b = eased(y - static_cast<float>(k));
+    const float* corner = values_.data() + static_cast<std::ptrdiff_t>(k) * (columns_ + 1) + i;
+    const float* above = corner + columns_ + 1;
+    return mixed(mixed(corner[0], corner[1], a), mixed(above[0], above[1], a), b);
+  }
+
+ private:
+  static float eased(float t) { return t * t * (3 - 2 * t); }
+
+  int columns_, rows_;
+  std::vector<float> values_;
+};
 
 Colour mixed(const Colour& a, const Colour& b, float share) { return a + share * (b - a); }
 
 /// Wood whose grain runs along u. `seed` makes another piece of the same wood.
-Colour grain(float u, float v, std::uint32_t seed, const Colour& light, const Colour& dark) {
-  const float wander = noise(u, v, 2, 3, seed) + 0.35f * noise(u, v, 5, 9, seed + 1) +
-                       0.08f * noise(u, v, 9, 40, seed + 2);
-  const float phase = 26 * v + 3.2f * wander;
-  const float ring =
-      phase - std::floor(phase);  // early wood fades into late wood, then starts anew
-  const float late = smoothStep(0.1f, 0.9f, ring) * (1 - smoothStep(0.9f, 1.0f, ring));
-  const float streaks = noise(u, v, 6, 300, seed + 3), fibres = noise(u, v, 40, 1024, seed + 4);
-  const float pores = smoothStep(0.8f, 0.95f, noise(u, v, 40, 640, seed + 5));
-  const float share = 0.4f * late + 0.38f * streaks + 0.22f * fibres;
-  return mixed(light, dark, share) * (1 - 0.22f * pores);
+class Wood {
+ public:
+  Wood(std::uint32_t seed, const Colour& light, const Colour& dark)
+      : light_(light),
+        dark_(dark),
+        wander_{{{2, 3, seed}, {5, 9, seed + 1}, {9, 40, seed + 2}}},
+        streaks_(6, 300, seed + 3),
+        fibres_(40, 1024, seed + 4),
+        pores_(40, 640, seed + 5) {}
+
+  [[nodiscard]] Colour at(float u, float v) const {
+    const float wander = wander_[0](u, v) + 0.35f * wander_[1](u, v) + 0.08f * wander_[2](u, v);
+    const float phase = 26 * v + 3.2f * wander;
+    // Early wood fades into late wood, then the next year begins.
+    const float ring = phase - std::floor(phase);
+    const float late = smoothStep(0.1f, 0.9f, ring) * (1 - smoothStep(0.9f, 1.0f, ring));
+    const float share = 0.26f * late + 0.44f * streaks_(u, v) + 0.3f * fibres_(u, v);
+    return mixed(light_, dark_, share) * (1 - 0.22f * smoothStep(0.8f, 0.95f, pores_(u, v)));
+  }
+
+ private:
+  Colour light_, dark_;
+  std::array<Noise, 3> wander_;
+  Noise streaks_, fibres_, pores_;
+};
+
+using Painter = std::function<Colour(float, float)>;
+
+Painter desk() {
+  const Wood wood(11, {0.335f, 0.205f, 0.115f}, {0.215f, 0.118f, 0.060f});
+  return [wood](float u, float v) { return wood.at(u, v); };
 }
 
-Colour deskAt(float u, float v) {
-  return grain(u, v, 11, {0.335f, 0.205f, 0.115f}, {0.215f, 0.118f, 0.060f});
+Painter boards() {
+  constexpr std::uint32_t kBoards = 5;
+  std::vector<Wood> woods;
+  for (std::uint32_t i = 0; i < kBoards; ++i) {
+    woods.emplace_back(100 + 16 * i, Colour(0.520f, 0.345f, 0.190f),
+                       Colour(0.375f, 0.220f, 0.110f));
+  }
+  return [woods](float u, float v) {
+    const float place = v * kBoards;
+    const auto board = static_cast<std::uint32_t>(place) % kBoards;
+    const float within = place - std::floor(place), edge = std::min(within, 1 - within);
+    float end = std::abs(u - unit(hashed(board, 7, 3)));  // where a board ends
+    end = std::min(end, 1 - end) * kBoards;
+    const float tone = 0.86f + 0.28f * unit(hashed(board, 1, 5));
+    const float gap = smoothStep(0.004f, 0.011f, std::min(edge, end));
+    return Colour(woods[board].at(u, v) * tone * (0.25f + 0.75f * gap));
+  };
 }
 
-Colour boardAt(float u, float v) {
-  constexpr int kBoards = 5;
-  const float place = v * kBoards;
-  const auto board = static_cast<std::uint32_t>(place) % kBoards;
-  const float edge = std::min(place - std::floor(place), 1 - (place - std::floor(place)));
-  const float joint = unit(hashed(board, 7, 3));  // where a board ends
-  float end = std::abs(u - joint);
-  end = std::min(end, 1 - end) * kBoards;
-  const float tone = 0.86f + 0.28f * unit(hashed(board, 1, 5));
-  const float gap = smoothStep(0.004f, 0.011f, std::min(edge, end));
-  const Colour wood =
-      grain(u, v, 100 + 16 * board, {0.520f, 0.345f, 0.190f}, {0.375f, 0.220f, 0.110f});
-  return wood * tone * (0.25f + 0.75f * gap);
-}
-
-Colour carpetAt(float u, float v) {
+Painter carpet() {
   // Rows of loops, each a little out of its place.
   constexpr int kLoops = 192;
-  const float row = v * kLoops;
-  const float shift = 0.5f * static_cast<float>(static_cast<int>(row) % 2);
-  const float x = u * kLoops + shift + 0.5f * noise(u, v, 96, 96, 21);
-  const float y = row + 0.5f * noise(u, v, 96, 96, 22);
-  const float a = x - std::floor(x) - 0.5f, b = y - std::floor(y) - 0.5f;
-  const float loop = 1 - smoothStep(0.05f, 0.55f, std::sqrt(a * a + 0.8f * b * b));
-  const float yarn = unit(hashed(static_cast<std::uint32_t>(wrapped(static_cast<int>(x), kLoops)),
-                                 static_cast<std::uint32_t>(static_cast<int>(y) % kLoops), 9));
-  const float fleece = noise(u, v, 700, 700, 23), wear = noise(u, v, 5, 5, 24);
-  const float light = (0.45f + 0.55f * loop) * (0.8f + 0.3f * fleece) * (0.86f + 0.22f * yarn);
-  return Colour(0.235f, 0.262f, 0.300f) * light * (0.9f + 0.2f * wear);
+  const Noise sideways(96, 96, 21), along(96, 96, 22), fleece(700, 700, 23), wear(5, 5, 24);
+  return [=](float u, float v) {
+    const float row = v * kLoops, shift = 0.5f * static_cast<float>(static_cast<int>(row) % 2);
+    const float x = u * kLoops + shift + 0.5f * sideways(u, v), y = row + 0.5f * along(u, v);
+    const float a = x - std::floor(x) - 0.5f, b = y - std::floor(y) - 0.5f;
+    const float loop = 1 - smoothStep(0.05f, 0.55f, std::sqrt(a * a + 0.8f * b * b));
+    const float yarn = unit(
+        hashed(static_cast<std::uint32_t>(x) % kLoops, static_cast<std::uint32_t>(y) % kLoops, 9));
+    const float light =
+        (0.45f + 0.55f * loop) * (0.8f + 0.3f * fleece(u, v)) * (0.86f + 0.22f * yarn);
+    return Colour(Colour(0.235f, 0.262f, 0.300f) * light * (0.9f + 0.2f * wear(u, v)));
+  };
 }
 
 }  // namespace
 
 FloorTexture::FloorTexture(const std::string& surface) : gloss_(0.14f) {
-  auto* colourAt = &deskAt;
-  if (surface == "wood") colourAt = &boardAt, gloss_ = 0.2f;
-  if (surface == "carpet") colourAt = &carpetAt, gloss_ = 0;
+  if (surface == "wood") gloss_ = 0.2f;
+  if (surface == "carpet") gloss_ = 0;
+  const Painter colourAt = surface == "wood" ? boards() : (surface == "carpet" ? carpet() : desk());
   Level full{kSide, {}};
   full.texels.resize(static_cast<std::size_t>(kSide) * kSide);
   parallelFor(kSide, [&](std::size_t row) {

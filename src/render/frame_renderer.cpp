@@ -16,6 +16,12 @@ constexpr float kLeastSky = 0.04f;
 // The floor's varnish loses this share of what a mirror would show.
 constexpr float kVarnish = 0.55f;
 
+// Samples of a pixel that differ by less, as square roots, need no company: some 10 of 255 levels.
+constexpr float kEven = 0.04f;
+
+// What moves by fewer pixels while the shutter is open is drawn with half of the samples.
+constexpr float kSharp = 2;
+
 /// A rectangle of pixels; `high` is one past the last.
 struct PixelBox {
   int left = std::numeric_limits<int>::max(), top = std::numeric_limits<int>::max();
@@ -59,7 +65,9 @@ struct PixelBox {
 struct FrameRenderer::Picture {
   Camera camera;
   Moment moment;
-  std::vector<FloorLight> lights;
+  std::vector<FloorLight> lights;  ///< one a body
+  std::vector<float> pools;        ///< share of the light that falls where the body is
+  int samples = 1;                 ///< of a pixel
   PixelBox bodies, mirrored, shaded;
   Image image;
   long rays = 0;
@@ -76,7 +84,8 @@ FrameRenderer::FrameRenderer(std::vector<Actor> actors, const RenderSettings& se
   if (!path_.isFixed()) return;
   const Camera camera = path_.at(0);
   stillFloor_ = floorLayer(camera);
-  Picture empty{camera, Moment({}, 0, 0), {}, {}, {}, {}, Image(camera.width, camera.height)};
+  Picture empty{
+      camera, Moment({}, 0, 0), {}, {}, 1, {}, {}, {}, Image(camera.width, camera.height)};
   empty.shaded = {0, 0, camera.width, camera.height};
   draw(empty, stillFloor_);
   stillImage_ = std::move(empty.image);
@@ -84,8 +93,10 @@ FrameRenderer::FrameRenderer(std::vector<Actor> actors, const RenderSettings& se
 
 // A pool of light around what happens: the eye stays there.
 float FrameRenderer::pool(float x, float y) const {
-  const float away = (Eigen::Vector2f(x, y) - path_.middle().head<2>()).norm() / path_.extent();
-  return 0.42f + 0.58f * std::exp(-0.5f * away * away);
+  const float away = (Eigen::Vector2f(x, y) - path_.middle().head<2>()).squaredNorm() /
+                     (path_.extent() * path_.extent());
+  const float fall = 1 / (1 + 0.25f * away);
+  return 0.42f + 0.58f * fall * fall;
 }
 
 FrameRenderer::FloorPoint FrameRenderer::floorPoint(const Camera& camera, int x, int y) const {
@@ -144,19 +155,19 @@ Colour FrameRenderer::mirroredInFloor(Picture& picture, const FloorPoint& point,
   const Vector place(point.x, point.y, 0);
   const Frame mirror(Vector(view.x(), view.y(), -view.z()));
   const Sample* samples = samples_.at(x, y);
-  const int count = std::max(1, settings_.samplesPerPixel / 2);
+  const int count = std::max(1, picture.samples / 2);
   const float spread = texture_.gloss() * texture_.gloss() * 2;
   Colour sum = Colour::Zero();
   SurfaceHit hit;
   for (int i = 0; i < count; ++i) {
     const Sample& s = samples[i];
-    const float radius = spread * std::sqrt(s.specular0 / (1.02f - s.specular0));
-    const float angle = 2 * kPi * s.specular1;
-    const Vector d =
-        mirror.toWorld(radius * std::cos(angle), radius * std::sin(angle), 1).normalized();
+    // Long tails, as polished wood has them.
+    const float wide =
+        spread / std::sqrt(1.02f - s.specularX * s.specularX - s.specularY * s.specularY);
+    const Vector d = mirror.toWorld(wide * s.specularX, wide * s.specularY, 1).normalized();
     if (d.z() <= 0) continue;
     ++picture.rays;
-    if (!picture.moment.intersect({place, d}, s.instant, s.choice, hit)) continue;
+    if (picture.moment.intersect({place, d}, s.instant, s.choice, hit) == Moment::kNobody) continue;
     sum += roughRadiance(hit, -d, studio_) - studio_.softSky(d);
   }
   return sum * (point.mirrored * point.pool / static_cast<float>(count));
@@ -178,14 +189,15 @@ Colour FrameRenderer::floorSeenFrom(const Picture& picture, const Ray& ray, floa
 }
 
 /// Radiance that arrives along the ray at a body: other bodies, its own other parts, floor, sky.
-/// @param sharp  the lamps are seen
+/// @param except  a body that cannot be met, or kNobody
+/// @param sharp   the lamps are seen
 Colour FrameRenderer::around(Picture& picture, const Ray& ray, const Sample& sample,
-                             std::size_t self, float blur, bool sharp) const {
-  const auto& actors = picture.moment.actors();
-  if (actors.size() > 1 || !actors[self].isConvex()) {
+                             std::size_t except, float blur, bool sharp) const {
+  if (except == Moment::kNobody || picture.moment.actors().size() > 1) {
     ++picture.rays;
     SurfaceHit hit;
-    if (picture.moment.intersect(ray, sample.instant, sample.choice, hit)) {
+    if (picture.moment.intersect(ray, sample.instant, sample.choice, hit, except) !=
+        Moment::kNobody) {
       return roughRadiance(hit, -ray.direction, studio_);
     }
   }
@@ -197,25 +209,23 @@ Colour FrameRenderer::shade(Picture& picture, const Ray& ray, const SurfaceHit& 
                             const Sample& sample, std::size_t self) const {
   const Finish& finish = *hit.finish;
   const ActorMoment& actor = picture.moment.actors()[self];
+  const std::size_t except = hit.open ? self : Moment::kNobody;
   const Vector view = -ray.direction;
   const Vector place =
       ray.origin + hit.distance * ray.direction + 3e-4f * actor.radius() * hit.geometric;
   const float facing = std::max(hit.normal.dot(view), 0.02f);
   const Colour through = 1 - (finish.facing() + (1 - finish.facing()) * schlick(facing));
   const Colour diffuse = finish.diffuse() / kPi * through;
-  const float light = pool(place.x(), place.y());
   // Key light: its square is sampled for the diffuse part, and together with the lobe for the rest.
   Colour radiance = Colour::Zero();
   const Vector key = studio_.towardsKey(sample.key0, sample.key1);
   const float keyCosine = hit.normal.dot(key);
   const FinishLobe lobe(finish, hit.normal, view);
   if (keyCosine > 0 && hit.geometric.dot(key) > 0) {
-    const bool alone = picture.moment.actors().size() == 1 && actor.isConvex();
     bool shadowed = false;
-    if (!alone) {
+    if (except == Moment::kNobody || picture.moment.actors().size() > 1) {
       ++picture.rays;
-      shadowed = picture.moment.occluded({place, key}, sample.instant, sample.choice,
-                                         actor.isConvex() ? self : picture.moment.actors().size());
+      shadowed = picture.moment.occluded({place, key}, sample.instant, sample.choice, except);
     }
     if (!shadowed) {
       const float density = studio_.keyDensity(key);
@@ -227,17 +237,17 @@ Colour FrameRenderer::shade(Picture& picture, const Ray& ray, const SurfaceHit& 
   // Sky and floor, diffuse: what is known of them for the whole hemisphere, and by one ray how this
   // place differs.
   if (finish.metallic < 1) {
-    const Vector d = cosineDirection(Frame(hit.normal), sample.diffuse0, sample.diffuse1);
+    const Vector d = cosineDirection(lobe.frame(), sample.diffuseX, sample.diffuseY);
     const Colour open = d.z() > 0 ? studio_.softSky(d) : studio_.floorRadiance();
-    const Colour found = around(picture, {place, d}, sample, self, 1, false);
+    const Colour found = around(picture, {place, d}, sample, except, 1, false);
     radiance += diffuse * (studio_.ambient(hit.normal) + kPi * (found - open)).max(0.0f);
   }
   // What it mirrors.
   Colour weight;
-  const Vector mirrored = lobe.sample(sample.specular0, sample.specular1, weight);
+  const Vector mirrored = lobe.sample(sample.specularX, sample.specularY, weight);
   if (mirrored.dot(hit.normal) > 0) {
     Colour seen =
-        around(picture, {place, mirrored}, sample, self, 4 * finish.alpha * actor.radius(), true);
+        around(picture, {place, mirrored}, sample, except, 4 * finish.alpha * actor.radius(), true);
     if (mirrored.dot(hit.geometric) > 0 && (studio_.key(mirrored) > 0).any()) {
       const float density = lobe.density(mirrored);
       const float share = density / (density + studio_.keyDensity(mirrored));
@@ -245,7 +255,7 @@ Colour FrameRenderer::shade(Picture& picture, const Ray& ray, const SurfaceHit& 
     }
     radiance += weight * seen;
   }
-  return radiance * light;
+  return radiance * picture.pools[self];
 }
 
 Colour FrameRenderer::pixel(Picture& picture, const FloorPoint& point, int x, int y) const {
@@ -258,21 +268,29 @@ Colour FrameRenderer::pixel(Picture& picture, const FloorPoint& point, int x, in
   floor = toned(floor);
   if (!picture.bodies.holds(x, y)) return floor;
   const Sample* samples = samples_.at(x, y);
-  Colour sum = Colour::Zero();
+  Colour sum = Colour::Zero(), low = Colour::Ones(), high = sum;
+  int hits = 0, taken = 0;
   SurfaceHit hit;
-  for (int i = 0; i < settings_.samplesPerPixel; ++i) {
-    const Sample& s = samples[i];
+  while (taken < picture.samples) {
+    const Sample& s = samples[taken++];
     const Ray ray =
         picture.camera.through(static_cast<float>(x) + s.x, static_cast<float>(y) + s.y);
-    std::size_t actor = 0;
     ++picture.rays;
-    if (picture.moment.intersect(ray, s.instant, s.choice, hit, &actor)) {
-      sum += toned(shade(picture, ray, hit, s, actor));
-    } else {
-      sum += floor;
+    const std::size_t actor = picture.moment.intersect(ray, s.instant, s.choice, hit);
+    Colour seen = floor;
+    if (actor != Moment::kNobody) {
+      seen = toned(shade(picture, ray, hit, s, actor));
+      ++hits;
     }
+    sum += seen;
+    low = low.min(seen);
+    high = high.max(seen);
+    // Most pixels are either all floor or all one face.
+    const bool even =
+        hits == taken ? 4 * taken >= picture.samples : hits == 0 && 2 * taken >= picture.samples;
+    if (even && taken >= 4 && (high.sqrt() - low.sqrt() < kEven).all()) break;
   }
-  return sum / static_cast<float>(settings_.samplesPerPixel);
+  return sum / static_cast<float>(taken);
 }
 
 void FrameRenderer::put(Image& image, int x, int y, const Colour& tonedColour) const {
@@ -283,19 +301,23 @@ void FrameRenderer::put(Image& image, int x, int y, const Colour& tonedColour) c
 }
 
 void FrameRenderer::light(Picture& picture) const {
+  bool blurred = false;
   for (const ActorMoment& actor : picture.moment.actors()) {
     FloorLightSettings settings = settings_.floorLight;
     const Vector below(actor.centre().x(), actor.centre().y(), 0);
     settings.pixel = picture.camera.pixelAt(picture.camera.project(below).z());
     picture.lights.emplace_back(actor, studio_, samples_, settings);
+    picture.pools.push_back(pool(below.x(), below.y()));
     picture.rays += picture.lights.back().rays();
     if (actor.presence() <= 0) continue;
+    blurred = blurred || actor.sweep() > kSharp * settings.pixel || actor.presence() < 1;
     picture.bodies.includeBall(actor.centre(), actor.reach(), picture.camera);
     picture.mirrored.includeBall({actor.centre().x(), actor.centre().y(), -actor.centre().z()},
                                  1.5f * actor.reach(), picture.camera);
     picture.shaded.includeGrid(picture.lights.back().keyGrid(), picture.camera);
     picture.shaded.includeGrid(picture.lights.back().ambientGrid(), picture.camera);
   }
+  picture.samples = blurred ? settings_.samplesPerPixel : (settings_.samplesPerPixel + 1) / 2;
   picture.shaded.include(picture.bodies);
   picture.shaded.include(picture.mirrored);
 }
@@ -311,7 +333,7 @@ void FrameRenderer::draw(Picture& picture, const std::vector<FloorPoint>& layer)
 
 Image FrameRenderer::render(double time) const {
   Picture picture{
-      path_.at(time), Moment(actors_, time, settings_.shutterSeconds), {}, {}, {}, {}, {}};
+      path_.at(time), Moment(actors_, time, settings_.shutterSeconds), {}, {}, 1, {}, {}, {}, {}};
   light(picture);
   if (path_.isFixed()) {
     picture.image = stillImage_;

@@ -62,7 +62,7 @@ class FrameRenderer {
   [[nodiscard]] Colour mirroredInFloor(Picture& picture, const FloorPoint& point,
                                        const Vector& view, int x, int y) const;
   [[nodiscard]] Colour around(Picture& picture, const Ray& ray, const Sample& sample,
-                              std::size_t self, float blur, bool sharp) const;
+                              std::size_t except, float blur, bool sharp) const;
   [[nodiscard]] Colour shade(Picture& picture, const Ray& ray, const SurfaceHit& hit,
                              const Sample& sample, std::size_t self) const;
   [[nodiscard]] Colour pixel(Picture& picture, const FloorPoint& point, int x, int y) const;

@@ -51,12 +51,22 @@ bool ActorMoment::misses(const Ray& ray, const Placed& placed) const {
   return off > square || (along < 0 && towards.squaredNorm() > square);
 }
 
+float ActorMoment::sweep() const {
+  const Placed &first = placed_.front(), &last = placed_.back();
+  const float turn =
+      Eigen::AngleAxisf(Eigen::Matrix3f(first.worldFromBody.transpose() * last.worldFromBody))
+          .angle();
+  return (last.position - first.position).norm() + turn * radius();
+}
+
+Ray ActorMoment::inBody(const Ray& ray, const Placed& placed) {
+  return {placed.worldFromBody.transpose() * (ray.origin - placed.position),
+          placed.worldFromBody.transpose() * ray.direction};
+}
+
 bool ActorMoment::intersect(const Ray& ray, int instant, float limit, SurfaceHit& hit) const {
   const Placed& placed = at(instant);
-  if (misses(ray, placed)) return false;
-  const Ray local{placed.worldFromBody.transpose() * (ray.origin - placed.position),
-                  placed.worldFromBody.transpose() * ray.direction};
-  if (!geometry_->intersect(local, limit, hit)) return false;
+  if (misses(ray, placed) || !geometry_->intersect(inBody(ray, placed), limit, hit)) return false;
   hit.normal = placed.worldFromBody * hit.normal;
   hit.geometric = placed.worldFromBody * hit.geometric;
   return true;
@@ -64,9 +74,13 @@ bool ActorMoment::intersect(const Ray& ray, int instant, float limit, SurfaceHit
 
 bool ActorMoment::occludes(const Ray& ray, int instant) const {
   const Placed& placed = at(instant);
-  if (misses(ray, placed)) return false;
-  return geometry_->occludes({placed.worldFromBody.transpose() * (ray.origin - placed.position),
-                              placed.worldFromBody.transpose() * ray.direction});
+  return !misses(ray, placed) && geometry_->occludes(inBody(ray, placed));
+}
+
+float ActorMoment::distance(const Ray& ray, int instant) const {
+  const Placed& placed = at(instant);
+  return misses(ray, placed) ? std::numeric_limits<float>::infinity()
+                             : geometry_->distance(inBody(ray, placed));
 }
 
 Moment::Moment(const std::vector<Actor>& actors, double time, double opening) {
@@ -75,17 +89,17 @@ Moment::Moment(const std::vector<Actor>& actors, double time, double opening) {
   }
 }
 
-bool Moment::intersect(const Ray& ray, int instant, float choice, SurfaceHit& hit,
-                       std::size_t* actor) const {
+std::size_t Moment::intersect(const Ray& ray, int instant, float choice, SurfaceHit& hit,
+                              std::size_t except) const {
   float limit = std::numeric_limits<float>::infinity();
+  std::size_t nearest = kNobody;
   for (std::size_t i = 0; i < actors_.size(); ++i) {
-    if (choice >= actors_[i].presence() || !actors_[i].intersect(ray, instant, limit, hit)) {
-      continue;
-    }
+    if (i == except || choice >= actors_[i].presence()) continue;
+    if (!actors_[i].intersect(ray, instant, limit, hit)) continue;
     limit = hit.distance;
-    if (actor != nullptr) *actor = i;
+    nearest = i;
   }
-  return limit < std::numeric_limits<float>::infinity();
+  return nearest;
 }
 
 bool Moment::occluded(const Ray& ray, int instant, float choice, std::size_t except) const {

@@ -38,20 +38,24 @@ class ActorMoment {
   /// Nearest hit closer than `limit`, world frame.
   bool intersect(const Ray& ray, int instant, float limit, SurfaceHit& hit) const;
   [[nodiscard]] bool occludes(const Ray& ray, int instant) const;
+  /// Distance of the nearest hit, or infinity.
+  [[nodiscard]] float distance(const Ray& ray, int instant) const;
   [[nodiscard]] const Placed& at(int instant) const {
     return placed_[static_cast<std::size_t>(instant)];
   }
   [[nodiscard]] float radius() const { return geometry_->radius(); }
-  [[nodiscard]] bool isConvex() const { return geometry_->isConvex(); }
   [[nodiscard]] float presence() const { return presence_; }
   /// Sphere that holds the body at every instant.
   [[nodiscard]] const Vector& centre() const { return centre_; }
   [[nodiscard]] float reach() const { return reach_; }
+  /// How far a place of the body's surface moves while the shutter is open at most, m.
+  [[nodiscard]] float sweep() const;
   /// Least height of the middle of the body, m.
   [[nodiscard]] float lowest() const { return lowest_; }
 
  private:
   [[nodiscard]] bool misses(const Ray& ray, const Placed& placed) const;
+  [[nodiscard]] static Ray inBody(const Ray& ray, const Placed& placed);
 
   const BodyGeometry* geometry_;
   std::array<Placed, kInstants> placed_;
@@ -66,10 +70,13 @@ class Moment {
   /// @param opening  s, >= 0
   Moment(const std::vector<Actor>& actors, double time, double opening);
 
+  static constexpr std::size_t kNobody = static_cast<std::size_t>(-1);
+
   /// @param choice  in [0, 1): whether bodies that fade in are there
-  bool intersect(const Ray& ray, int instant, float choice, SurfaceHit& hit,
-                 std::size_t* actor = nullptr) const;
-  /// @param except  number of a body that is left out, or more than there are
+  /// @param except  number of a body that is left out
+  /// @return number of the body that is hit first, or kNobody
+  std::size_t intersect(const Ray& ray, int instant, float choice, SurfaceHit& hit,
+                        std::size_t except = kNobody) const;
   [[nodiscard]] bool occluded(const Ray& ray, int instant, float choice, std::size_t except) const;
   [[nodiscard]] const std::vector<ActorMoment>& actors() const { return actors_; }
   /// True when nothing moves and nothing fades: the same picture as `other`.

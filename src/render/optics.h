@@ -31,11 +31,9 @@ struct Frame {
   Vector tangent, bitangent, normal;
 };
 
-/// Direction about `n` with density cosine / pi, for u, v in [0, 1).
-inline Vector cosineDirection(const Frame& frame, float u, float v) {
-  const float radius = std::sqrt(u), angle = 2 * kPi * v;
-  return frame.toWorld(radius * std::cos(angle), radius * std::sin(angle),
-                       std::sqrt(std::max(0.0f, 1 - u)));
+/// Direction about the frame's normal with density cosine / pi, for an even point of the unit disc.
+inline Vector cosineDirection(const Frame& frame, float x, float y) {
+  return frame.toWorld(x, y, std::sqrt(std::max(0.0f, 1 - x * x - y * y)));
 }
 
 inline Vector reflected(const Vector& towardsEye, const Vector& normal) {

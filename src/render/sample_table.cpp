@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/sample_table.h"
 
+#include <cmath>
+
 namespace ifa::render {
 namespace {
 
@@ -58,8 +60,13 @@ Sample sampleAt(std::uint32_t index) {
   float time = 0;
   fill(0, s.x, s.y);
   fill(1, s.key0, s.key1);
-  fill(2, s.diffuse0, s.diffuse1);
-  fill(3, s.specular0, s.specular1);
+  const auto fillDisc = [index](std::uint32_t pair, float& x, float& y) {
+    const auto p = point(index, pair);
+    const float radius = std::sqrt(p[0]), angle = 6.28318531f * p[1];
+    x = radius * std::cos(angle), y = radius * std::sin(angle);
+  };
+  fillDisc(2, s.diffuseX, s.diffuseY);
+  fillDisc(3, s.specularX, s.specularY);
   fill(4, time, s.choice);
   s.instant = static_cast<std::uint8_t>(time * kInstants);
   return s;

@@ -12,13 +12,13 @@ namespace ifa::render {
 /// Number of instants at which poses within one shutter opening are known.
 inline constexpr int kInstants = 64;
 
-/// The random numbers of one sample, each in [0, 1) and even over a pixel's samples.
+/// The random numbers of one sample, even over a pixel's samples.
 struct Sample {
-  float x = 0, y = 0;                  ///< place in the pixel
-  float key0 = 0, key1 = 0;            ///< direction to the key light
-  float diffuse0 = 0, diffuse1 = 0;    ///< direction of the diffuse bounce
-  float specular0 = 0, specular1 = 0;  ///< direction of the specular bounce
-  float choice = 0;                    ///< whether a body that fades in is there
+  float x = 0, y = 0;                  ///< place in the pixel, in [0, 1)
+  float key0 = 0, key1 = 0;            ///< place on the key light, in [0, 1)
+  float diffuseX = 0, diffuseY = 0;    ///< in the unit disc: direction of the diffuse bounce
+  float specularX = 0, specularY = 0;  ///< likewise, of the specular bounce
+  float choice = 0;                    ///< in [0, 1): whether a body that fades in is there
   std::uint8_t instant = 0;            ///< 0 to kInstants - 1
 };
 
@@ -34,10 +34,14 @@ class SampleTable {
 
   [[nodiscard]] int perPixel() const { return perPixel_; }
   /// The samples of the pixel at (x, y), perPixel() of them.
-  [[nodiscard]] const Sample* at(int x, int y) const {
+  [[nodiscard]] const Sample* at(int x, int y) const { return samples_.data() + indexAt(x, y); }
+  /// Where these lie among all().
+  [[nodiscard]] std::size_t indexAt(int x, int y) const {
     const auto block = static_cast<std::size_t>((y & (kTile - 1)) * kTile + (x & (kTile - 1)));
-    return samples_.data() + block * static_cast<std::size_t>(perPixel_);
+    return block * static_cast<std::size_t>(perPixel_);
   }
+  /// The samples of a whole tile.
+  [[nodiscard]] const std::vector<Sample>& all() const { return samples_; }
 
  private:
   int perPixel_;

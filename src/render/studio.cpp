@@ -10,12 +10,12 @@ namespace {
 // the camera, z up; half its side as a tangent; its radiance.
 const Vector kKeyPlace(-0.62f, 0.1f, 0.85f);
 constexpr float kKeyHalf = 0.13f;
-const Colour kKeyRadiance = Colour(1.0f, 0.955f, 0.88f) * 36;
+const Colour kKeyRadiance = Colour(1.0f, 0.955f, 0.88f) * 43;
 // The rim over which the key light's reflection fades, as a share of its side.
 constexpr float kKeyRim = 0.12f;
 
-const Colour kZenith = Colour(0.92f, 0.96f, 1.04f) * 0.62f;
-const Colour kHorizon = Colour(1.0f, 0.98f, 0.94f) * 0.36f;
+const Colour kZenith = Colour(0.92f, 0.96f, 1.04f) * 0.53f;
+const Colour kHorizon = Colour(1.0f, 0.98f, 0.94f) * 0.31f;
 
 // Two dim panels that only shiny things show: behind on the right, and low on the camera's side.
 struct Panel {

@@ -70,8 +70,8 @@ TEST(WriteTakes, ASearchThatFoundNothingStillSaysWhy) {
   motion.failure = "contact 1 cannot be met";
   const Heard heard = heardAt(0.2);
   placeInSound(motion, heard);
-  const auto written =
-      writeTakes(folder.path(), {motion}, false, body, heard, {OutputFormat::kGlb});
+  const auto written = writeTakes(folder.path(), {motion}, false, body, heard,
+                                  {{OutputFormat::kGlb}, {}, false}, {});
   ASSERT_TRUE(written) << written.error().text();
   EXPECT_THAT(folder.names(), Contains("motion.json"));
   EXPECT_THAT(folder.names(), Not(Contains("motion.glb")));
@@ -85,7 +85,7 @@ TEST(WriteTakes, NumbersThemEvenWhenThereIsOnlyOne) {
   motion.object = {"d6", "d6.obj", "desk", body.mass, 0.5, 0.3};
   const Heard heard = heardAt(0.2);
   placeInSound(motion, heard);
-  ASSERT_TRUE(writeTakes(folder.path(), {motion}, true, body, heard, {}));
+  ASSERT_TRUE(writeTakes(folder.path(), {motion}, true, body, heard, {{}, {}, false}, {}));
   EXPECT_THAT(folder.names(), Contains("take-1/motion.json"));
   EXPECT_THAT(folder.names(), Not(Contains("motion.json")));
 }
