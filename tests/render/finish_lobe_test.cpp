@@ -23,13 +23,19 @@ Vector viewAt(float angle) {
   return frame.toWorld(0.6f * std::sin(angle), 0.8f * std::sin(angle), std::cos(angle));
 }
 
+/// A direction by the lobe, for u and v in [0, 1).
+Vector draw(const FinishLobe& lobe, float u, float v, Colour& weight) {
+  const float radius = std::sqrt(u), angle = 2 * kPi * v;
+  return lobe.sample(radius * std::cos(angle), radius * std::sin(angle), weight);
+}
+
 /// Mean weight of evenly spread samples.
 Colour meanWeight(const FinishLobe& lobe, int side) {
   Colour sum = Colour::Zero(), weight;
   for (int i = 0; i < side * side; ++i) {
     const auto n = static_cast<float>(side);
-    (void)lobe.sample((static_cast<float>(i % side) + 0.5f) / n,
-                      (static_cast<float>(i / side) + 0.5f) / n, weight);
+    (void)draw(lobe, (static_cast<float>(i % side) + 0.5f) / n,
+               (static_cast<float>(i / side) + 0.5f) / n, weight);
     sum += weight;
   }
   return sum / static_cast<float>(side * side);
@@ -70,7 +76,7 @@ TEST_P(Lobe, SendsNoMoreLightThanArrives) {
     Colour weight;
     test::Lottery lottery;
     for (int i = 0; i < 500; ++i) {
-      (void)lobe.sample(lottery.single(), lottery.single(), weight);
+      (void)draw(lobe, lottery.single(), lottery.single(), weight);
       ASSERT_GE(weight.minCoeff(), 0);
       ASSERT_LE(weight.maxCoeff(), 1 + 1e-5f);
     }
@@ -92,8 +98,8 @@ TEST_P(WideLobe, DensityIsThatOfItsSamples) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero(), expected = Eigen::Vector3d::Zero();
   for (int i = 0; i < kSide * kSide; ++i) {
     Colour weight;
-    const Vector d = lobe.sample((static_cast<float>(i % kSide) + 0.5f) / kSide,
-                                 (static_cast<float>(i / kSide) + 0.5f) / kSide, weight);
+    const Vector d = draw(lobe, (static_cast<float>(i % kSide) + 0.5f) / kSide,
+                          (static_cast<float>(i / kSide) + 0.5f) / kSide, weight);
     if (d.dot(kNormal) <= 0) continue;
     ++drawn;
     mean += d.cast<double>();
@@ -131,7 +137,7 @@ TEST(FinishLobe, MirrorsWhereAMirrorWould) {
   const FinishLobe lobe(polished, kNormal, view);
   Colour weight;
   for (const float u : {0.0f, 0.3f, 0.6f}) {
-    const Vector d = lobe.sample(u, 0.4f, weight);
+    const Vector d = draw(lobe, u, 0.4f, weight);
     EXPECT_GT(d.dot(reflected(view, kNormal)), 0.999f);
     EXPECT_NEAR(weight.x() / weight.z(), 3, 0.2);
   }

@@ -40,12 +40,16 @@ TEST(Moment, TracesInTheWorldsFrame) {
     const Ray local{turn.transpose() * (origin - place), turn.transpose() * ray.direction};
     const int instant = i % kInstants;
     const bool wanted = actor.geometry->intersect(local, kFar, expected);
-    ASSERT_EQ(moment.intersect(ray, instant, 0.5f, found), wanted) << i;
-    ASSERT_EQ(moment.occluded(ray, instant, 0.5f, 99), wanted) << i;
-    ASSERT_FALSE(moment.occluded(ray, instant, 0.5f, 0)) << "the only body is left out";
+    ASSERT_EQ(moment.intersect(ray, instant, 0.5f, found), wanted ? 0 : Moment::kNobody) << i;
+    ASSERT_EQ(moment.occluded(ray, instant, 0.5f, Moment::kNobody), wanted) << i;
+    // Without the only body there is nothing.
+    ASSERT_FALSE(moment.occluded(ray, instant, 0.5f, 0));
+    ASSERT_EQ(moment.intersect(ray, instant, 0.5f, found, 0), Moment::kNobody);
     if (!wanted) continue;
     ++hits;
+    ASSERT_EQ(moment.intersect(ray, instant, 0.5f, found), 0u);
     ASSERT_NEAR(found.distance, expected.distance, 1e-6);
+    ASSERT_EQ(found.distance, moment.actors().front().distance(ray, instant));
     ASSERT_LT((turn.transpose() * found.normal - expected.normal).norm(), 1e-4f);
     ASSERT_LT((turn.transpose() * found.geometric - expected.geometric).norm(), 1e-4f);
   }
@@ -59,14 +63,12 @@ TEST(Moment, FindsTheNearestOfSeveral) {
                                      test::actorOf(body, test::restAt({0.2, 0, 0.01}))};
   const Moment moment(actors, 0, 0);
   SurfaceHit hit;
-  std::size_t actor = 9;
-  ASSERT_TRUE(moment.intersect({{-1, 0, 0.01f}, Vector::UnitX()}, 0, 0, hit, &actor));
-  EXPECT_EQ(actor, 1u);
+  EXPECT_EQ(moment.intersect({{-1, 0, 0.01f}, Vector::UnitX()}, 0, 0, hit), 1u);
   EXPECT_NEAR(hit.distance, 0.99, 1e-5);
-  ASSERT_TRUE(moment.intersect({{1, 0, 0.01f}, -Vector::UnitX()}, 0, 0, hit, &actor));
-  EXPECT_EQ(actor, 2u);
+  EXPECT_EQ(moment.intersect({{1, 0, 0.01f}, -Vector::UnitX()}, 0, 0, hit), 2u);
   EXPECT_NEAR(hit.distance, 0.79, 1e-5);
-  EXPECT_FALSE(moment.intersect({{1, 0, 0.05f}, -Vector::UnitX()}, 0, 0, hit));
+  EXPECT_EQ(moment.intersect({{1, 0, 0.01f}, -Vector::UnitX()}, 0, 0, hit, 2), 0u);
+  EXPECT_EQ(moment.intersect({{1, 0, 0.05f}, -Vector::UnitX()}, 0, 0, hit), Moment::kNobody);
   EXPECT_TRUE(moment.occluded({{1, 0, 0.01f}, -Vector::UnitX()}, 0, 0, 1));
 }
 
@@ -78,7 +80,7 @@ TEST(Moment, BodiesMoveWhileTheShutterIsOpen) {
   SurfaceHit hit;
   float last = 0;
   for (int instant = 0; instant < kInstants; ++instant) {
-    ASSERT_TRUE(moment.intersect({{-1, 0, 0.1f}, Vector::UnitX()}, instant, 0, hit));
+    ASSERT_EQ(moment.intersect({{-1, 0, 0.1f}, Vector::UnitX()}, instant, 0, hit), 0u);
     const double time = 0.1 + opening * ((instant + 0.5) / kInstants - 0.5);
     EXPECT_NEAR(hit.distance, 1 - 0.01 + speed * time, 1e-5) << instant;
     EXPECT_GT(hit.distance, last);
@@ -87,6 +89,7 @@ TEST(Moment, BodiesMoveWhileTheShutterIsOpen) {
   const ActorMoment& placed = moment.actors().front();
   EXPECT_NEAR(placed.centre().x(), speed * 0.1, 1e-5);
   EXPECT_NEAR(placed.lowest(), 0.1, 1e-6);
+  EXPECT_NEAR(placed.sweep(), speed * opening, 0.02 * speed * opening);
   for (int instant = 0; instant < kInstants; ++instant) {
     EXPECT_LE((placed.at(instant).position - placed.centre()).norm() + placed.radius(),
               placed.reach() + 1e-6f);
@@ -105,8 +108,9 @@ TEST(Moment, OffsetMovesTheBody) {
   Actor actor = test::actorOf(test::cubeOf(0.02), test::restAt({0, 0, 0.01}));
   actor.offset = {0, 0.3, 0};
   SurfaceHit hit;
-  EXPECT_TRUE(Moment({actor}, 0, 0).intersect({{0, 0.3f, 1}, -Vector::UnitZ()}, 0, 0, hit));
-  EXPECT_FALSE(Moment({actor}, 0, 0).intersect({{0, 0, 1}, -Vector::UnitZ()}, 0, 0, hit));
+  const Moment moment({actor}, 0, 0);
+  EXPECT_EQ(moment.intersect({{0, 0.3f, 1}, -Vector::UnitZ()}, 0, 0, hit), 0u);
+  EXPECT_EQ(moment.intersect({{0, 0, 1}, -Vector::UnitZ()}, 0, 0, hit), Moment::kNobody);
 }
 
 TEST(Moment, ABodyFadesInWhereItsMotionBeginsAfterTheFilm) {
@@ -125,12 +129,12 @@ TEST(Moment, ABodyFadesInWhereItsMotionBeginsAfterTheFilm) {
   const Ray ray{{0, 0, 1}, -Vector::UnitZ()};
   SurfaceHit hit;
   for (const float choice : {0.0f, 0.5f * presence, presence - 1e-4f}) {
-    EXPECT_TRUE(moment.intersect(ray, 0, choice, hit));
-    EXPECT_TRUE(moment.occluded(ray, 0, choice, 99));
+    EXPECT_EQ(moment.intersect(ray, 0, choice, hit), 0u);
+    EXPECT_TRUE(moment.occluded(ray, 0, choice, Moment::kNobody));
   }
   for (const float choice : {presence, 0.999f}) {
-    EXPECT_FALSE(moment.intersect(ray, 0, choice, hit));
-    EXPECT_FALSE(moment.occluded(ray, 0, choice, 99));
+    EXPECT_EQ(moment.intersect(ray, 0, choice, hit), Moment::kNobody);
+    EXPECT_FALSE(moment.occluded(ray, 0, choice, Moment::kNobody));
   }
 }
 

@@ -4,17 +4,31 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <set>
 
 namespace ifa::render {
 namespace {
 
-using Field = float Sample::*;
+/// Two numbers of a sample that belong together, each even in [0, 1).
+struct Pair {
+  float Sample::*first, Sample::*second;
+  bool inDisc = false;
 
-const std::vector<std::pair<Field, Field>> kPairs = {{&Sample::x, &Sample::y},
-                                                     {&Sample::key0, &Sample::key1},
-                                                     {&Sample::diffuse0, &Sample::diffuse1},
-                                                     {&Sample::specular0, &Sample::specular1}};
+  [[nodiscard]] std::array<float, 2> of(const Sample& s) const {
+    const float a = s.*first, b = s.*second;
+    if (!inDisc) return {a, b};
+    // Rings of equal area, and the angle; a trifle for rounding.
+    const float angle = std::atan2(b, a) / 6.2831853f;
+    return {(a * a + b * b) * (1 - 3e-7f), angle < 0 ? angle + 1 : angle};
+  }
+};
+
+const std::vector<Pair> kPairs = {{&Sample::x, &Sample::y},
+                                  {&Sample::key0, &Sample::key1},
+                                  {&Sample::diffuseX, &Sample::diffuseY, true},
+                                  {&Sample::specularX, &Sample::specularY, true}};
 
 int stratum(float value, int strata) {
   return static_cast<int>(value * static_cast<float>(strata));
@@ -30,9 +44,10 @@ TEST_P(SampleTables, StayInTheirRanges) {
     for (int x = 0; x < SampleTable::kTile; ++x) {
       all = table.at(x, y);
       for (int i = 0; i < GetParam(); ++i) {
-        for (const auto& [a, b] : kPairs) {
-          ASSERT_GE(std::min(all[i].*a, all[i].*b), 0.0f);
-          ASSERT_LT(std::max(all[i].*a, all[i].*b), 1.0f);
+        for (const Pair& pair : kPairs) {
+          const auto [a, b] = pair.of(all[i]);
+          ASSERT_GE(std::min(a, b), 0.0f);
+          ASSERT_LT(std::max(a, b), 1.0f);
         }
         ASSERT_GE(all[i].choice, 0.0f);
         ASSERT_LT(all[i].choice, 1.0f);
@@ -49,11 +64,11 @@ TEST_P(SampleTables, SpreadOverEveryPixel) {
   for (int y = 0; y < SampleTable::kTile; ++y) {
     for (int x = 0; x < SampleTable::kTile; ++x) {
       const Sample* samples = table.at(x, y);
-      for (const auto& [a, b] : kPairs) {
+      for (const Pair& pair : kPairs) {
         std::set<int> first, second;
         for (int i = 0; i < count; ++i) {
-          first.insert(stratum(samples[i].*a, count));
-          second.insert(stratum(samples[i].*b, count));
+          first.insert(stratum(pair.of(samples[i])[0], count));
+          second.insert(stratum(pair.of(samples[i])[1], count));
         }
         ASSERT_EQ(first.size(), static_cast<std::size_t>(count)) << x << ", " << y;
         ASSERT_EQ(second.size(), static_cast<std::size_t>(count)) << x << ", " << y;
@@ -68,12 +83,13 @@ TEST(SampleTable, SpreadsAPixelsSamplesInBothDirectionsAtOnce) {
   const SampleTable table(16);
   for (int pixel = 0; pixel < 64; ++pixel) {
     const Sample* samples = table.at(pixel % 8, pixel / 8);
-    for (const auto& [a, b] : kPairs) {
+    for (const Pair& pair : kPairs) {
       // One in each of the 4 by 4, 2 by 8 and 8 by 2 cells.
       for (const int across : {2, 4, 8}) {
         std::set<int> cells;
         for (int i = 0; i < 16; ++i) {
-          cells.insert(stratum(samples[i].*a, across) * 16 + stratum(samples[i].*b, 16 / across));
+          const auto [a, b] = pair.of(samples[i]);
+          cells.insert(stratum(a, across) * 16 + stratum(b, 16 / across));
         }
         ASSERT_EQ(cells.size(), 16u) << "pixel " << pixel << ", " << across << " across";
       }
@@ -83,13 +99,13 @@ TEST(SampleTable, SpreadsAPixelsSamplesInBothDirectionsAtOnce) {
 
 TEST(SampleTable, SpreadsATileAsAWhole) {
   const SampleTable table(4);
-  for (const auto& [a, b] : kPairs) {
+  for (const Pair& pair : kPairs) {
     std::set<int> first, cells;
     for (int pixel = 0; pixel < 64; ++pixel) {
       for (int i = 0; i < 4; ++i) {
-        const Sample& s = table.at(pixel % 8, pixel / 8)[i];
-        first.insert(stratum(s.*a, 256));
-        cells.insert(stratum(s.*a, 16) * 16 + stratum(s.*b, 16));
+        const auto [a, b] = pair.of(table.at(pixel % 8, pixel / 8)[i]);
+        first.insert(stratum(a, 256));
+        cells.insert(stratum(a, 16) * 16 + stratum(b, 16));
       }
     }
     EXPECT_EQ(first.size(), 256u);
@@ -117,9 +133,11 @@ TEST(SampleTable, RepeatsTileByTileAndInEveryRun) {
   const SampleTable table(8), again(8);
   for (int i = 0; i < 8; ++i) {
     EXPECT_EQ(table.at(3, 5)[i].x, table.at(3 + 8 * 7, 5 + 8 * 20)[i].x);
-    EXPECT_EQ(table.at(3, 5)[i].specular1, again.at(3, 5)[i].specular1);
+    EXPECT_EQ(table.at(3, 5)[i].specularY, again.at(3, 5)[i].specularY);
   }
   EXPECT_NE(table.at(0, 0)[0].x, table.at(1, 0)[0].x);
+  EXPECT_EQ(table.all().size(), 64u * 8);
+  EXPECT_EQ(&table.all()[table.indexAt(13, 6)], table.at(5, 6));
 }
 
 }  // namespace
