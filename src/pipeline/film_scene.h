@@ -50,6 +50,8 @@ class FilmScene {
     std::string name;
   };
 
+  void label(Image& whole) const;
+
   FilmOptions options_;
   std::vector<View> views_;
   std::optional<render::Overlay> overlay_;
