@@ -91,7 +91,7 @@ TEST(FrameRenderer, KnowsWhatMoves) {
   EXPECT_FALSE(FrameRenderer({moving}, following).sameAt(0.45, 0.55));
 }
 
-TEST(FrameRenderer, ABodyThatIsNotYetThereLeavesTheFloorEmpty) {
+TEST(FrameRenderer, SlowABodyThatIsNotYetThereLeavesTheFloorEmpty) {
   const Image empty = emptyFloor();
   const Image full = FrameRenderer({restingCube(kRed)}, small()).render(0.1);
   const FrameRenderer late({restingCube(kRed, 1)}, small());
@@ -147,7 +147,7 @@ TEST(FrameRenderer, ShadowFallsAwayFromTheLight) {
   EXPECT_GT(lost(side), 2 * lost(-side));
 }
 
-TEST(FrameRenderer, BodiesHaveTheirColours) {
+TEST(FrameRenderer, SlowBodiesHaveTheirColours) {
   const Image empty = emptyFloor();
   const std::array<std::array<double, 4>, 3> colours = {
       {{0.6, 0.05, 0.05, 1}, {0.05, 0.5, 0.05, 1}, {0.05, 0.05, 0.6, 1}}};
@@ -229,7 +229,7 @@ TEST(FrameRenderer, HasNoFireflies) {
   }
 }
 
-TEST(FrameRenderer, DraftIsCloseToAnyNumberOfRays) {
+TEST(FrameRenderer, SlowDraftIsCloseToAnyNumberOfRays) {
   const Body box = test::makeDrawableBox();
   const Actor thrown = test::actorOf(box, test::makeTumblingMotion(box));
   const FrameRenderer draft({thrown}, small()), many({thrown}, reference());
@@ -240,7 +240,7 @@ TEST(FrameRenderer, DraftIsCloseToAnyNumberOfRays) {
   EXPECT_GT(test::psnr(still.render(0.1), clean.render(0.1)), 33);
 }
 
-TEST(FrameRenderer, AWiderShutterBlursMore) {
+TEST(FrameRenderer, SlowAWiderShutterBlursMore) {
   const Actor moving =
       test::actorOf(test::cubeOf(0.02, kRed), test::evenMotion({-0.1, 0, 0.05}, {2, 0, 0}, 0.1));
   const Actor later = test::actorOf(test::cubeOf(0.02, kRed),
