@@ -156,7 +156,6 @@ void FloorLight::lightKey(const ActorMoment& actor, const Studio& studio,
       key_.values[index] = 1 - blocked.hits / static_cast<float>(count);
     }
   }
-  rays_ += static_cast<long>(key_.values.size()) * count;
   blur(key_,
        widthsFor(std::move(blockers), shapeOf(key_.columns, key_.rows), 0.7f * softness, key_.step),
        0.0f);
@@ -200,7 +199,6 @@ void FloorLight::lightAmbient(const ActorMoment& actor, const Studio& studio,
           kPi / static_cast<float>(count) * (1 - smoothStep(kFadeFrom, 1, away));
     }
   }
-  rays_ += static_cast<long>(ambient_.values.size()) * count;
   blur(ambient_,
        widthsFor(std::move(blockers), shapeOf(ambient_.columns, ambient_.rows), kAmbientWidth,
                  ambient_.step),

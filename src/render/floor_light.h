@@ -56,8 +56,6 @@ class FloorLight {
   }
   [[nodiscard]] const FloorGrid<float>& keyGrid() const { return key_; }
   [[nodiscard]] const FloorGrid<Colour>& ambientGrid() const { return ambient_; }
-  /// Rays that were traced.
-  [[nodiscard]] long rays() const { return rays_; }
 
  private:
   void lightKey(const ActorMoment& actor, const Studio& studio, const SampleTable& samples,
@@ -67,7 +65,6 @@ class FloorLight {
 
   FloorGrid<float> key_;
   FloorGrid<Colour> ambient_;
-  long rays_ = 0;
 };
 
 /// Radiance of a body's surface by unshadowed light, for what is only seen in passing: reflections

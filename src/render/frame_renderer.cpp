@@ -70,7 +70,6 @@ struct FrameRenderer::Picture {
   int samples = 1;                 ///< of a pixel
   PixelBox bodies, mirrored, shaded;
   Image image;
-  long rays = 0;
 };
 
 FrameRenderer::FrameRenderer(std::vector<Actor> actors, const RenderSettings& settings)
@@ -150,8 +149,8 @@ Colour FrameRenderer::litFloor(const Picture& picture, const FloorPoint& point,
 }
 
 // What the varnish shows of bodies, instead of the sky.
-Colour FrameRenderer::mirroredInFloor(Picture& picture, const FloorPoint& point, const Vector& view,
-                                      int x, int y) const {
+Colour FrameRenderer::mirroredInFloor(const Picture& picture, const FloorPoint& point,
+                                      const Vector& view, int x, int y) const {
   const Vector place(point.x, point.y, 0);
   const Frame mirror(Vector(view.x(), view.y(), -view.z()));
   const Sample* samples = samples_.at(x, y);
@@ -166,7 +165,6 @@ Colour FrameRenderer::mirroredInFloor(Picture& picture, const FloorPoint& point,
         spread / std::sqrt(1.02f - s.specularX * s.specularX - s.specularY * s.specularY);
     const Vector d = mirror.toWorld(wide * s.specularX, wide * s.specularY, 1).normalized();
     if (d.z() <= 0) continue;
-    ++picture.rays;
     if (picture.moment.intersect({place, d}, s.instant, s.choice, hit) == Moment::kNobody) continue;
     sum += roughRadiance(hit, -d, studio_) - studio_.softSky(d);
   }
@@ -191,10 +189,9 @@ Colour FrameRenderer::floorSeenFrom(const Picture& picture, const Ray& ray, floa
 /// Radiance that arrives along the ray at a body: other bodies, its own other parts, floor, sky.
 /// @param except  a body that cannot be met, or kNobody
 /// @param sharp   the lamps are seen
-Colour FrameRenderer::around(Picture& picture, const Ray& ray, const Sample& sample,
+Colour FrameRenderer::around(const Picture& picture, const Ray& ray, const Sample& sample,
                              std::size_t except, float blur, bool sharp) const {
   if (except == Moment::kNobody || picture.moment.actors().size() > 1) {
-    ++picture.rays;
     SurfaceHit hit;
     if (picture.moment.intersect(ray, sample.instant, sample.choice, hit, except) !=
         Moment::kNobody) {
@@ -205,7 +202,7 @@ Colour FrameRenderer::around(Picture& picture, const Ray& ray, const Sample& sam
   return sharp ? studio_.sky(ray.direction) : studio_.softSky(ray.direction);
 }
 
-Colour FrameRenderer::shade(Picture& picture, const Ray& ray, const SurfaceHit& hit,
+Colour FrameRenderer::shade(const Picture& picture, const Ray& ray, const SurfaceHit& hit,
                             const Sample& sample, std::size_t self) const {
   const Finish& finish = *hit.finish;
   const ActorMoment& actor = picture.moment.actors()[self];
@@ -224,7 +221,6 @@ Colour FrameRenderer::shade(Picture& picture, const Ray& ray, const SurfaceHit& 
   if (keyCosine > 0 && hit.geometric.dot(key) > 0) {
     bool shadowed = false;
     if (except == Moment::kNobody || picture.moment.actors().size() > 1) {
-      ++picture.rays;
       shadowed = picture.moment.occluded({place, key}, sample.instant, sample.choice, except);
     }
     if (!shadowed) {
@@ -258,7 +254,7 @@ Colour FrameRenderer::shade(Picture& picture, const Ray& ray, const SurfaceHit& 
   return radiance * picture.pools[self];
 }
 
-Colour FrameRenderer::pixel(Picture& picture, const FloorPoint& point, int x, int y) const {
+Colour FrameRenderer::pixel(const Picture& picture, const FloorPoint& point, int x, int y) const {
   const Ray middle =
       picture.camera.through(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
   Colour floor = litFloor(picture, point, middle.direction);
@@ -275,7 +271,6 @@ Colour FrameRenderer::pixel(Picture& picture, const FloorPoint& point, int x, in
     const Sample& s = samples[taken++];
     const Ray ray =
         picture.camera.through(static_cast<float>(x) + s.x, static_cast<float>(y) + s.y);
-    ++picture.rays;
     const std::size_t actor = picture.moment.intersect(ray, s.instant, s.choice, hit);
     Colour seen = floor;
     if (actor != Moment::kNobody) {
@@ -308,7 +303,6 @@ void FrameRenderer::light(Picture& picture) const {
     settings.pixel = picture.camera.pixelAt(picture.camera.project(below).z());
     picture.lights.emplace_back(actor, studio_, samples_, settings);
     picture.pools.push_back(pool(below.x(), below.y()));
-    picture.rays += picture.lights.back().rays();
     if (actor.presence() <= 0) continue;
     blurred = blurred || actor.sweep() > kSharp * settings.pixel || actor.presence() < 1;
     picture.bodies.includeBall(actor.centre(), actor.reach(), picture.camera);
@@ -332,6 +326,7 @@ void FrameRenderer::draw(Picture& picture, const std::vector<FloorPoint>& layer)
 }
 
 Image FrameRenderer::render(double time) const {
+  const long before = ActorMoment::raysOfThisThread();
   Picture picture{
       path_.at(time), Moment(actors_, time, settings_.shutterSeconds), {}, {}, 1, {}, {}, {}, {}};
   light(picture);
@@ -343,7 +338,7 @@ Image FrameRenderer::render(double time) const {
     picture.shaded = {0, 0, picture.camera.width, picture.camera.height};
     draw(picture, floorLayer(picture.camera));
   }
-  rays_ += picture.rays;
+  rays_ += ActorMoment::raysOfThisThread() - before;
   return std::move(picture.image);
 }
 

@@ -41,7 +41,7 @@ class FrameRenderer {
   /// True when the pictures at both times are surely the same.
   [[nodiscard]] bool sameAt(double time, double other) const;
   [[nodiscard]] const CameraPath& cameraPath() const { return path_; }
-  /// Rays traced so far.
+  /// Rays traced so far, by all threads.
   [[nodiscard]] long rays() const { return rays_.load(); }
 
  private:
@@ -59,13 +59,13 @@ class FrameRenderer {
   [[nodiscard]] Colour litFloor(const Picture& picture, const FloorPoint& point,
                                 const Vector& view) const;
   [[nodiscard]] Colour floorSeenFrom(const Picture& picture, const Ray& ray, float blur) const;
-  [[nodiscard]] Colour mirroredInFloor(Picture& picture, const FloorPoint& point,
+  [[nodiscard]] Colour mirroredInFloor(const Picture& picture, const FloorPoint& point,
                                        const Vector& view, int x, int y) const;
-  [[nodiscard]] Colour around(Picture& picture, const Ray& ray, const Sample& sample,
+  [[nodiscard]] Colour around(const Picture& picture, const Ray& ray, const Sample& sample,
                               std::size_t except, float blur, bool sharp) const;
-  [[nodiscard]] Colour shade(Picture& picture, const Ray& ray, const SurfaceHit& hit,
+  [[nodiscard]] Colour shade(const Picture& picture, const Ray& ray, const SurfaceHit& hit,
                              const Sample& sample, std::size_t self) const;
-  [[nodiscard]] Colour pixel(Picture& picture, const FloorPoint& point, int x, int y) const;
+  [[nodiscard]] Colour pixel(const Picture& picture, const FloorPoint& point, int x, int y) const;
   void draw(Picture& picture, const std::vector<FloorPoint>& layer) const;
   void light(Picture& picture) const;
   void put(Image& image, int x, int y, const Colour& tonedColour) const;

@@ -7,6 +7,8 @@
 namespace ifa::render {
 namespace {
 
+thread_local long raysAsked = 0;
+
 constexpr double kFadeIn = 0.12;  // s
 // A motion that begins with the film needs no fading: nothing is seen of what was before.
 constexpr double kAtOnce = 0.02;  // s
@@ -42,8 +44,11 @@ ActorMoment::ActorMoment(const Actor& actor, double open, double close)
   reach_ += radius();
 }
 
+long ActorMoment::raysOfThisThread() { return raysAsked; }
+
 // Most rays pass the body by; a sphere tells sooner than the tree does.
 bool ActorMoment::misses(const Ray& ray, const Placed& placed) const {
+  ++raysAsked;
   const Vector towards = placed.position - ray.origin;
   const float along = towards.dot(ray.direction);
   const float off = towards.squaredNorm() - along * along;

@@ -35,6 +35,8 @@ class ActorMoment {
 
   ActorMoment(const Actor& actor, double open, double close);
 
+  /// Rays that this thread has asked about so far, those that pass by included.
+  [[nodiscard]] static long raysOfThisThread();
   /// Nearest hit closer than `limit`, world frame.
   bool intersect(const Ray& ray, int instant, float limit, SurfaceHit& hit) const;
   [[nodiscard]] bool occludes(const Ray& ray, int instant) const;
