@@ -125,8 +125,15 @@ double FilmScene::timeOf(std::size_t frame) const {
   return static_cast<double>(frame) / options_.framesPerSecond * options_.speed;
 }
 
-// Names on the views, and lines between them.
-void FilmScene::label(Image& whole) const {
+Image FilmScene::picture(double time) const {
+  if (views_.size() == 1) return views_.front().renderer->render(time);
+  Image whole(options_.width, options_.height);
+  for (const View& view : views_) paste(view.renderer->render(time), whole, view.left);
+  nameViews(whole);
+  return whole;
+}
+
+void FilmScene::nameViews(Image& whole) const {
   render::Canvas canvas(whole);
   const double size = std::max(10.0, options_.height / 26.0);
   for (const View& view : views_) {
@@ -134,14 +141,6 @@ void FilmScene::label(Image& whole) const {
     canvas.text(view.left + size, 1.7 * size, size, render::Align::kLeft, view.name,
                 {1, 1, 1, 0.85});
   }
-}
-
-Image FilmScene::picture(double time) const {
-  if (views_.size() == 1) return views_.front().renderer->render(time);
-  Image whole(options_.width, options_.height);
-  for (const View& view : views_) paste(view.renderer->render(time), whole, view.left);
-  label(whole);
-  return whole;
 }
 
 bool FilmScene::sameAt(double time, double other) const {

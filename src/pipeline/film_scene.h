@@ -44,13 +44,13 @@ class FilmScene {
   void finish(Image& picture, double time) const;
 
  private:
+  void nameViews(Image& whole) const;
+
   struct View {
     std::unique_ptr<render::FrameRenderer> renderer;
     int left = 0;
     std::string name;
   };
-
-  void label(Image& whole) const;
 
   FilmOptions options_;
   std::vector<View> views_;

