@@ -20,12 +20,13 @@ struct RenderOptions {
   std::vector<fs::path> motions;
   fs::path output;
   FilmOptions film;
-  std::string size, quality = "draft", camera = "fixed";
+  std::string size, quality = "draft", camera;
   std::optional<double> still;
 };
 
 const std::map<std::string, CameraKind>& cameraNames() {
-  static const std::map<std::string, CameraKind> kNames = {{"fixed", CameraKind::kFixed},
+  static const std::map<std::string, CameraKind> kNames = {{"auto", CameraKind::kAuto},
+                                                           {"fixed", CameraKind::kFixed},
                                                            {"follow", CameraKind::kFollow},
                                                            {"close-up", CameraKind::kCloseUp}};
   return kNames;
@@ -45,7 +46,7 @@ Result<void> parseSize(const std::string& text, FilmOptions& film) {
 
 int runRender(RenderOptions options, CommandContext& context) {
   options.film.final = options.quality == "final";
-  options.film.camera = cameraNames().at(options.camera);
+  if (!options.camera.empty()) options.film.camera = cameraNames().at(options.camera);
   if (!options.size.empty()) {
     if (auto good = parseSize(options.size, options.film); !good) return context.fail(good.error());
   }
@@ -77,9 +78,10 @@ void addRenderCommand(CLI::App& app, CommandContext& context) {
   command->add_option("--fps", film.framesPerSecond, "frames per second")
       ->check(numberFrom(1, 240))
       ->capture_default_str();
-  command->add_option("--camera", options->camera, "fixed, follow or close-up")
-      ->check(CLI::IsMember(cameraNames()))
-      ->capture_default_str();
+  command
+      ->add_option("--camera", options->camera,
+                   "auto, fixed, follow or close-up (default: auto, for contact sheets close-up)")
+      ->check(CLI::IsMember(cameraNames()));
   command->add_option("--speed", film.speed, "0.25: four times slower; the sound is stretched too")
       ->check(numberFrom(0.01, 4))
       ->capture_default_str();

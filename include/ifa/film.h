@@ -14,8 +14,9 @@ namespace ifa {
 
 /// How the camera moves.
 enum class CameraKind {
+  kAuto,     ///< stands still where the object is large enough so; else it goes along, slowly
   kFixed,    ///< stands still and frames the whole motion
-  kFollow,   ///< goes with the object, slowly
+  kFollow,   ///< goes with the object
   kCloseUp,  ///< the same from nearby
 };
 
@@ -27,10 +28,10 @@ struct FilmOptions {
   double shutter = 0.5;  ///< share of a frame's time that the shutter is open, 0 (no blur) to 1
   double speed = 1;  ///< 0.01 to 4; below 1 is slow motion, and the sound is stretched as a tape
   bool mute = false;
-  CameraKind camera = CameraKind::kFixed;
-  bool overlay = false;     ///< waveform, playhead and contacts at the lower edge
-  bool sideBySide = false;  ///< a picture for each motion; else all bodies share one floor
-  std::string floor;        ///< desk, wood or carpet; empty: what the first motion's surface is
+  std::optional<CameraKind> camera;  ///< none: automatic; for contact sheets from nearby
+  bool overlay = false;              ///< waveform, playhead and contacts at the lower edge
+  bool sideBySide = false;           ///< a picture for each motion; else all bodies share one floor
+  std::string floor;  ///< desk, wood or carpet; empty: what the first motion's surface is
 };
 
 /// False in a build without libav: films cannot be written, everything else can.

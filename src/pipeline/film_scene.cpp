@@ -33,7 +33,7 @@ RenderSettings settingsOf(const FilmOptions& options, const std::vector<FilmPart
   RenderSettings settings = qualityOf(options.final);
   settings.width = width;
   settings.height = options.height;
-  settings.camera = options.camera;
+  settings.camera = options.camera.value_or(CameraKind::kAuto);
   settings.shutterSeconds = options.shutter / options.framesPerSecond * options.speed;
   settings.surface = options.floor.empty() ? parts.front().motion->object.surface : options.floor;
   if (options.overlay) settings.margins.bottom += static_cast<float>(render::Overlay::kShare);
@@ -118,7 +118,7 @@ FilmScene::FilmScene(const std::vector<FilmPart>& parts, const Sound* sound,
       std::max(1.0, std::ceil(seconds / options.speed * options.framesPerSecond)));
   if (!options.overlay) return;
   overlay_.emplace(first, sound != nullptr ? *sound : Sound{}, seconds, options.speed,
-                   options.width, options.height);
+                   options.speed / options.framesPerSecond, options.width, options.height);
 }
 
 double FilmScene::timeOf(std::size_t frame) const {

@@ -126,6 +126,7 @@ Result<void> writeContactSheet(const fs::path& path, const std::vector<FilmPart>
                                const FilmOptions& wanted, const Progress& progress) {
   FilmOptions options = wanted;
   if (options.width == 0) options.width = 320, options.height = 180;
+  if (!options.camera) options.camera = CameraKind::kCloseUp;
   options.overlay = false;
   if (auto good = check(parts, options); !good) return good;
   const Motion& motion = *parts.front().motion;

@@ -15,18 +15,43 @@ constexpr double kLeadIn = 0.04;        // s before the first contact that are f
 constexpr double kBallStep = 1 / 60.0;  // s
 constexpr double kKnotStep = 1 / 30.0;  // s
 // A body fills at most this share of the picture's height.
-constexpr float kLargest = 0.42f;
+constexpr float kLargest = 0.42f, kLargestFromAfar = 0.26f;
 // Turned from straight across the way that the body takes, so that depth shows.
 constexpr float kTurn = 0.3f;  // rad
 
+// A camera that stands still shows the body at least this high, as a share of the picture.
+constexpr float kSmallest = 0.075f;
+
+/// What a moving camera frames around now, and how smooth its way is.
 struct Following {
-  double window;     // s that are framed around now
-  double deviation;  // s, of the Gaussian that smooths the camera's way
+  double before, after;  // s
+  double deviation;      // s, of the Gaussian that smooths it
 };
 
 Following followingOf(CameraKind kind) {
-  if (kind == CameraKind::kFollow) return {0.45, 0.35};
-  return {0.1, 0.16};
+  if (kind == CameraKind::kAuto) return {0.25, 0.45, 0.4};
+  if (kind == CameraKind::kFollow) return {0.2, 0.3, 0.25};
+  return {0.1, 0.1, 0.16};
+}
+
+/// Gaussian mean of `value(i)` around each of `count` places, the ends held.
+template <class T, class Value>
+std::vector<T> smoothed(std::size_t count, double deviation, const T& zero, const Value& value) {
+  const auto reach = static_cast<std::ptrdiff_t>(std::ceil(3 * deviation / kKnotStep));
+  const auto last = static_cast<std::ptrdiff_t>(count) - 1;
+  std::vector<T> result;
+  for (std::ptrdiff_t i = 0; i <= last; ++i) {
+    T sum = zero;
+    float weights = 0;
+    for (std::ptrdiff_t k = -reach; k <= reach; ++k) {
+      const double x = static_cast<double>(k) * kKnotStep / deviation;
+      const auto weight = static_cast<float>(std::exp(-0.5 * x * x));
+      sum += weight * value(static_cast<std::size_t>(std::clamp(i + k, std::ptrdiff_t{0}, last)));
+      weights += weight;
+    }
+    result.push_back(sum / weights);
+  }
+  return result;
 }
 
 }  // namespace
@@ -56,14 +81,21 @@ CameraPath::CameraPath(CameraKind kind, const std::vector<Actor>& actors, int wi
     : width_(width), height_(height) {
   chooseAzimuth(actors);
   gather(actors);
+  const bool isNear = kind == CameraKind::kFixed || kind == CameraKind::kCloseUp;
+  leastDistance_ = largest_ / ((isNear ? kLargest : kLargestFromAfar) * kHalfHeight);
   const double infinite = std::numeric_limits<double>::infinity();
   const Knot whole = frame(-infinite, infinite, margins);
   middle_ = {whole.target.x(), whole.target.y(), 0};
   extent_ = whole.distance * kHalfHeight * static_cast<float>(width) / static_cast<float>(height);
-  if (kind == CameraKind::kFixed) {
+  const float share = largest_ / (kHalfHeight * whole.distance);
+  if (kind == CameraKind::kFixed || (kind == CameraKind::kAuto && share >= kSmallest)) {
     knots_ = {whole};
     return;
   }
+  follow(kind, margins);
+}
+
+void CameraPath::follow(CameraKind kind, const FrameMargins& margins) {
   const Following following = followingOf(kind);
   firstKnot_ = balls_.front().time;
   double last = firstKnot_;
@@ -72,14 +104,14 @@ CameraPath::CameraPath(CameraKind kind, const std::vector<Actor>& actors, int wi
     last = std::max(last, ball.time);
   }
   for (double time = firstKnot_; time <= last + kKnotStep; time += kKnotStep) {
-    const double near = std::min(time, last);
-    knots_.push_back(frame(near - following.window, near + following.window, margins));
+    const double now = std::min(time, last);
+    knots_.push_back(frame(now - following.before, now + following.after, margins));
   }
   smooth(following.deviation);
+  keepInView(margins);
 }
 
 void CameraPath::gather(const std::vector<Actor>& actors) {
-  float largest = 0;
   for (const Actor& actor : actors) {
     const float radius = actor.geometry->radius();
     const auto& samples = actor.motion->trajectory;
@@ -90,9 +122,8 @@ void CameraPath::gather(const std::vector<Actor>& actors) {
       balls_.push_back({actor.poseAt(now).position.cast<float>(), radius, now});
       if (now >= end) break;
     }
-    largest = std::max(largest, radius);
+    largest_ = std::max(largest_, radius);
   }
-  leastDistance_ = largest / (kLargest * kHalfHeight);
 }
 
 // Across the way that the bodies take, left to right, so that most of it is seen.
@@ -155,24 +186,39 @@ CameraPath::Knot CameraPath::frame(double from, double to, const FrameMargins& m
 }
 
 void CameraPath::smooth(double deviation) {
-  const auto reach = static_cast<std::ptrdiff_t>(std::ceil(3 * deviation / kKnotStep));
-  const auto count = static_cast<std::ptrdiff_t>(knots_.size());
-  std::vector<Knot> smoothed(knots_.size());
-  for (std::ptrdiff_t i = 0; i < count; ++i) {
-    Vector target = Vector::Zero();
-    float distance = 0, weights = 0;
-    for (std::ptrdiff_t k = -reach; k <= reach; ++k) {
-      const Knot& knot =
-          knots_[static_cast<std::size_t>(std::clamp(i + k, std::ptrdiff_t{0}, count - 1))];
-      const double x = static_cast<double>(k) * kKnotStep / deviation;
-      const auto weight = static_cast<float>(std::exp(-0.5 * x * x));
-      target += weight * knot.target;
-      distance += weight * knot.distance;
-      weights += weight;
-    }
-    smoothed[static_cast<std::size_t>(i)] = {target / weights, distance / weights};
+  const auto targets = smoothed<Vector>(knots_.size(), deviation, Vector::Zero(),
+                                        [&](std::size_t i) { return knots_[i].target; });
+  const auto distances = smoothed<float>(knots_.size(), deviation, 0,
+                                         [&](std::size_t i) { return knots_[i].distance; });
+  for (std::size_t i = 0; i < knots_.size(); ++i) knots_[i] = {targets[i], distances[i]};
+}
+
+// A smooth way may lag behind the body: the camera goes back as far as it must, in time and softly.
+void CameraPath::keepInView(const FrameMargins& margins) {
+  constexpr double kSoftness = 0.2;  // s
+  std::vector<float> needed(knots_.size(), 1);
+  for (const Ball& ball : balls_) {
+    const Camera camera = at(ball.time);
+    const Vector seen = camera.project(ball.centre);
+    const float radius = ball.radius / camera.pixelAt(seen.z());
+    const float x = std::abs(2 * seen.x() / static_cast<float>(width_) - 1) +
+                    2 * radius / static_cast<float>(width_) + 2 * margins.side;
+    const float y = 1 - 2 * seen.y() / static_cast<float>(height_);  // 1: upper edge
+    const float ends =
+        2 * radius / static_cast<float>(height_) + 2 * (y > 0 ? margins.top : margins.bottom);
+    auto& need = needed[static_cast<std::size_t>(std::clamp(
+        (ball.time - firstKnot_) / kKnotStep, 0.0, static_cast<double>(needed.size() - 1)))];
+    need = std::max({need, x, std::abs(y) + ends});
   }
-  knots_ = std::move(smoothed);
+  const auto reach = static_cast<std::ptrdiff_t>(std::ceil(3 * kSoftness / kKnotStep)) + 1;
+  const auto last = static_cast<std::ptrdiff_t>(needed.size()) - 1;
+  const auto largest = [&](std::size_t i) {
+    const auto middle = static_cast<std::ptrdiff_t>(i);
+    return *std::max_element(needed.begin() + std::max(std::ptrdiff_t{0}, middle - reach),
+                             needed.begin() + std::min(last, middle + reach) + 1);
+  };
+  const auto factors = smoothed<float>(needed.size(), kSoftness, 0, largest);
+  for (std::size_t i = 0; i < knots_.size(); ++i) knots_[i].distance *= factors[i];
 }
 
 Camera CameraPath::cameraOf(const Knot& knot) const {

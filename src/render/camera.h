@@ -61,11 +61,14 @@ class CameraPath {
   void gather(const std::vector<Actor>& actors);
   void chooseAzimuth(const std::vector<Actor>& actors);
   [[nodiscard]] Knot frame(double from, double to, const FrameMargins& margins) const;
+  void follow(CameraKind kind, const FrameMargins& margins);
   void smooth(double deviation);
+  void keepInView(const FrameMargins& margins);
   [[nodiscard]] Camera cameraOf(const Knot& knot) const;
 
   int width_, height_;
   float azimuth_ = 0, extent_ = 0.1f, leastDistance_ = 0.1f;
+  float largest_ = 0;  ///< radius of the largest body, m
   Vector middle_ = Vector::Zero();
   std::vector<Ball> balls_;
   std::vector<Knot> knots_;

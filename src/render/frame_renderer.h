@@ -22,7 +22,7 @@ struct RenderSettings {
   int width = 640, height = 360;  ///< pixels
   int samplesPerPixel = 8;        ///< of bodies, a power of two
   FloorLightSettings floorLight;  ///< `pixel` is set by the renderer
-  CameraKind camera = CameraKind::kFixed;
+  CameraKind camera = CameraKind::kAuto;
   FrameMargins margins;
   double shutterSeconds = 1.0 / 120;  ///< how long the shutter is open, in the motion's time
   std::string surface = "desk";       ///< see FloorTexture

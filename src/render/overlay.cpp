@@ -20,12 +20,13 @@ constexpr double kFlash = 0.12;  // s of the film in which a flash dies away
 
 }  // namespace
 
-Overlay::Overlay(const Motion& motion, const Sound& sound, double seconds, double speed, int width,
-                 int height)
+Overlay::Overlay(const Motion& motion, const Sound& sound, double seconds, double speed,
+                 double step, int width, int height)
     : width_(width),
       stripHeight_(std::min(height, std::max(24, static_cast<int>(std::lround(kShare * height))))),
       seconds_(std::max(seconds, 1e-3)),
-      speed_(speed) {
+      speed_(speed),
+      step_(step) {
   top_ = height - stripHeight_;
   for (const MotionContact& contact : motion.contacts) {
     const double origin = motion.sound.firstContact;
@@ -58,14 +59,14 @@ void Overlay::draw(Image& frame, double time) const {
   canvas.rectangle(0, top_, width_, stripHeight_, kGround);
   canvas.bars(0, low_, high_, kWave);
   for (const Mark& mark : marks_) {
-    const bool past = time >= mark.start;
+    const double now = time + 0.5 * step_;
+    const bool past = now >= mark.start;
     const double x = place(mark.start), length = 0.2 + 0.22 * mark.level;
     canvas.rectangle(x - 0.5 * thick, top_, thick, length * stripHeight_, past ? kPast : kToCome);
     canvas.rectangle(x, top_, std::max(0.0, place(mark.end) - x), 1.5 * thick,
                      past ? kPast : kToCome);
     // While it sounds, and a moment longer, it glows.
-    const double after =
-        (time - std::max(mark.start, std::min(time, mark.end))) / (kFlash * speed_);
+    const double after = (now - std::max(mark.start, std::min(now, mark.end))) / (kFlash * speed_);
     if (past && after < 1) {
       Paint glow = kPast;
       glow.alpha = 0.85 * (1 - after) * (1 - after);

@@ -17,8 +17,9 @@ class Overlay {
   /// @param sound    without samples the waveform is left out
   /// @param seconds  of the sound's time that the strip spans
   /// @param speed    told beside the time when it is not 1
-  Overlay(const Motion& motion, const Sound& sound, double seconds, double speed, int width,
-          int height);
+  /// @param step     between frames, s of the sound: a contact flashes in the frame nearest to it
+  Overlay(const Motion& motion, const Sound& sound, double seconds, double speed, double step,
+          int width, int height);
 
   /// @param time  of the sound, s
   void draw(Image& frame, double time) const;
@@ -34,7 +35,7 @@ class Overlay {
   [[nodiscard]] double place(double time) const { return width_ * time / seconds_; }
 
   int width_, top_, stripHeight_;
-  double seconds_, speed_;
+  double seconds_, speed_, step_;
   std::vector<float> low_, high_;
   std::vector<Mark> marks_;
 };
