@@ -34,9 +34,10 @@ Image grey() {
   return image;
 }
 
-Image drawn(double time, const Sound& sound = {}, double speed = 1) {
+/// @param step  between frames, s of the sound
+Image drawn(double time, const Sound& sound = {}, double speed = 1, double step = 0) {
   Image image = grey();
-  Overlay(motion(), sound, kSeconds, speed, kWidth, kHeight).draw(image, time);
+  Overlay(motion(), sound, kSeconds, speed, step, kWidth, kHeight).draw(image, time);
   return image;
 }
 
@@ -96,6 +97,13 @@ TEST(Overlay, AContactFlashesWhenItSounds) {
   EXPECT_GT(warmth(drawn(1.09), column(1.0) + 2, y), 60);
 }
 
+TEST(Overlay, AContactFlashesInTheFrameNearestToIt) {
+  const int x = column(0.5) + 2, y = kTop + 5;
+  const double step = 0.04;
+  EXPECT_LT(warmth(drawn(0.5 - 0.6 * step, {}, 1, step), x, y), 10);
+  EXPECT_GT(warmth(drawn(0.5 - 0.4 * step, {}, 1, step), x, y), 60);
+}
+
 TEST(Overlay, FlashesAsLongInSlowMotion) {
   const int x = column(0.5) + 2, y = kTop + 5;
   // 50 ms of the sound take 200 ms of a film at a quarter of the speed.
@@ -141,7 +149,7 @@ TEST(Overlay, TellsTheTimeAndTheSpeed) {
 TEST(Overlay, TakesSmallPictures) {
   for (const int side : {16, 64}) {
     Image image(side, side);
-    const Overlay strip(motion(), {}, kSeconds, 1, side, side);
+    const Overlay strip(motion(), {}, kSeconds, 1, 1.0 / 60, side, side);
     strip.draw(image, 1);
     EXPECT_EQ(image.rgb.size(), static_cast<std::size_t>(3 * side * side));
   }
