@@ -50,6 +50,17 @@ Result<std::vector<MotionFolder>> readAll(const std::vector<fs::path>& motions) 
   return folders;
 }
 
+/// A sequence has a sound.wav beside its pictures, and replaces an older one.
+Result<void> refuseToOverwrite(const fs::path& output, const std::vector<MotionFolder>& folders) {
+  for (const MotionFolder& folder : folders) {
+    std::error_code code;
+    if (!fs::equivalent(output, fs::absolute(folder.file).parent_path(), code)) continue;
+    return usage("the motion's own sound would be overwritten", output.string(),
+                 "choose another folder");
+  }
+  return {};
+}
+
 Result<void> write(Kind kind, const fs::path& output, const std::vector<FilmPart>& parts,
                    const Sound* sound, const FilmOptions& options, std::optional<double> still,
                    const Progress& progress, std::vector<std::string>& warnings) {
@@ -78,6 +89,11 @@ Result<std::vector<std::string>> renderMotions(const std::vector<fs::path>& moti
   }
   auto folders = readAll(motions);
   if (!folders) return tl::unexpected(folders.error());
+  if (*kind == Kind::kFolder) {
+    if (auto good = refuseToOverwrite(output, *folders); !good) {
+      return tl::unexpected(good.error());
+    }
+  }
   std::optional<Sound> sound;
   if (*kind != Kind::kPng || options.overlay) {
     auto read = readSoundBeside(folders->front());

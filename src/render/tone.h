@@ -23,9 +23,9 @@ inline Colour toned(const Colour& radiance) {
 class ScreenCurve {
  public:
   ScreenCurve();
-  /// @param value  0 to 1
+  /// @param value  0 to 1; what is no number is black
   [[nodiscard]] std::uint8_t operator()(float value) const {
-    const float root = std::sqrt(std::min(std::max(value, 0.0f), 1.0f));
+    const float root = std::sqrt(std::min(std::max(0.0f, value), 1.0f));
     return table_[static_cast<std::size_t>(root * (kSize - 1) + 0.5f)];
   }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <stdexcept>
@@ -55,6 +56,103 @@ TEST_F(ParallelFor, PassesAnExceptionToTheCaller) {
     });
   };
   EXPECT_THROW(failing(), std::runtime_error);
+}
+
+class MakeInOrder : public ParallelFor {};
+
+TEST_F(MakeInOrder, TakesEverythingInOrderOneAtATime) {
+  for (const int threads : {1, 2, 4}) {
+    setThreadCount(threads);
+    std::vector<double> made(300);
+    std::vector<std::size_t> taken;
+    std::atomic<int> taking{0};
+    makeInOrder(
+        made.size(), 8,
+        [&](std::size_t i) {
+          RandomStream stream(3, i);
+          // Some take much longer than others.
+          for (std::size_t draw = 0; draw < (i % 7) * 300; ++draw) made[i] += stream.uniform();
+          made[i] += 1;
+        },
+        [&](std::size_t i) {
+          EXPECT_EQ(++taking, 1);
+          EXPECT_GT(made[i], 0) << "made before it is taken";
+          taken.push_back(i);
+          --taking;
+          return true;
+        });
+    ASSERT_EQ(taken.size(), made.size()) << threads << " threads";
+    for (std::size_t i = 0; i < taken.size(); ++i) ASSERT_EQ(taken[i], i);
+  }
+}
+
+TEST_F(MakeInOrder, RunsNoFurtherAheadThanItMay) {
+  constexpr std::size_t kAhead = 3;
+  std::atomic<std::size_t> taken{0}, furthest{0};
+  std::vector<std::atomic<int>> places(kAhead);
+  makeInOrder(
+      200, kAhead,
+      [&](std::size_t i) {
+        EXPECT_LT(i, taken + kAhead);
+        furthest = std::max(furthest.load(), i - taken);
+        EXPECT_EQ(++places[i % kAhead], 1) << "a place is free when it is used again";
+      },
+      [&](std::size_t i) {
+        --places[i % kAhead];
+        ++taken;
+        return true;
+      });
+  EXPECT_EQ(taken, 200u);
+  EXPECT_LT(furthest, kAhead);
+}
+
+TEST_F(MakeInOrder, EndsWhenItIsToldTo) {
+  std::atomic<std::size_t> made{0};
+  std::vector<std::size_t> taken;
+  makeInOrder(
+      100000, 4, [&](std::size_t) { ++made; },
+      [&](std::size_t i) {
+        taken.push_back(i);
+        return i < 10;
+      });
+  ASSERT_EQ(taken.size(), 11u);
+  EXPECT_EQ(taken.back(), 10u);
+  EXPECT_LE(made, 11u + 4u);
+}
+
+TEST_F(MakeInOrder, OfNothingCallsNothing) {
+  bool called = false;
+  makeInOrder(
+      0, 4, [&](std::size_t) { called = true; },
+      [&](std::size_t) {
+        called = true;
+        return true;
+      });
+  EXPECT_FALSE(called);
+}
+
+TEST_F(MakeInOrder, PassesExceptionsToTheCaller) {
+  const auto making = [] {
+    makeInOrder(
+        100, 4,
+        [](std::size_t i) {
+          if (i == 57) throw std::runtime_error("57");
+        },
+        [](std::size_t) { return true; });
+  };
+  EXPECT_THROW(making(), std::runtime_error);
+  std::size_t last = 0;
+  const auto taking = [&] {
+    makeInOrder(
+        100, 4, [](std::size_t) {},
+        [&](std::size_t i) -> bool {
+          last = i;
+          if (i == 23) throw std::runtime_error("23");
+          return true;
+        });
+  };
+  EXPECT_THROW(taking(), std::runtime_error);
+  EXPECT_EQ(last, 23u);
 }
 
 }  // namespace
