@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""check_streams.py FILM WIDTH HEIGHT: what ffprobe says of a film, as JSON on the standard input, and
+"""check_streams.py FILM WIDTH HEIGHT FPS: what ffprobe says of a film, as JSON on the standard input, and
 the order of its MP4 boxes."""
 import json
 import struct
 import sys
 
-film, width, height = sys.argv[1], int(sys.argv[2]), int(sys.argv[3])
+film, width, height, fps = sys.argv[1], *map(int, sys.argv[2:5])
 
 
 def check(name, found, wanted):
@@ -29,7 +29,7 @@ video, audio = streams
 for name, wanted in {
     "codec_name": "h264", "pix_fmt": "yuv420p", "width": width, "height": height,
     "color_space": "bt709", "color_transfer": "bt709", "color_primaries": "bt709",
-    "avg_frame_rate": "60/1", "r_frame_rate": "60/1", "start_time": "0.000000",
+    "avg_frame_rate": f"{fps}/1", "r_frame_rate": f"{fps}/1", "start_time": "0.000000",
 }.items():
     check(name, video.get(name), wanted)
 for name, wanted in {
@@ -39,7 +39,7 @@ for name, wanted in {
 frames = int(video["nb_frames"])
 check("frames that decode", int(video["nb_read_frames"]), frames)
 for stream in streams:
-    check(f"duration of {stream['codec_name']}", stream["duration"], f"{frames / 60:.6f}")
+    check(f"duration of {stream['codec_name']}", stream["duration"], f"{frames / fps:.6f}")
 order = list(boxes())
 if order.index("moov") > order.index("mdat"):
     sys.exit(f"{film}: its table of contents follows the pictures")

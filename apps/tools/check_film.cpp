@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // check_film WIDTH HEIGHT FPS SPEED SAMPLES: finds contacts in a film's decoded pictures (yuv444p
 // on the standard input) and onsets in its decoded sound (file SAMPLES: float, mono, 48 kHz), and
-// compares them: each contact that rebounds more than 3 pixels has an onset within half a frame. It
-// knows nothing of motions and shares no code with the program that made the film.
+// compares them: each contact that rebounds more than 3 pixels has an onset within half a frame of
+// 60 a second. It knows nothing of motions and shares no code with the program that made the film.
 //
 // A contact is a kink: the body's row in the picture falls, then at once rises. The camera stands
 // still and looks down, so the row tells of height and depth together; but in flight both change as
 // those of a thrown body do, and the row's acceleration is constant but for the mild perspective.
 // Only an impact makes the velocity jump, whichever of the two it is in. The instant between two
 // pictures is where the parabolas before and after meet. A bounce is compared when the pictures
-// tell it: four of flight on either side that lie on the parabolas. Neither rolling nor contacts
-// that follow within three pictures have that; slow motion shows more of them.
+// tell it: five of flight on either side that lie on the parabolas. Neither rolling nor contacts
+// that follow within four pictures have that; slow motion and more frames a second show more of
+// them.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -30,7 +31,8 @@
 namespace {
 
 constexpr double kSampleRate = 48000;
-constexpr double kLeastRebound = 3;  // pixels: what the eye sees as a bounce
+constexpr double kLeastRebound = 3;      // pixels: what the eye sees as a bounce
+constexpr double kHalfFrame = 0.5 / 60;  // s
 
 // ---- Pictures ----
 
@@ -178,8 +180,9 @@ struct Contact {
   /// How well the pictures tell the instant, frames: the scatter about two flights over the jump of
   /// velocity. Large where a body rolls, or where contacts follow each other too fast.
   [[nodiscard]] double blur() const { return residual / std::max(before - after, 1e-9); }
-  /// Two pictures fix a parabola of known acceleration; two more tell whether it was one.
-  [[nodiscard]] bool isTimed() const { return pictures >= 4 && blur() < 0.07; }
+  /// Two pictures fix a parabola of known acceleration; three more tell whether it was one flight.
+  /// @param step  pictures in 1/80 s of the motion: the scatter allowed is 0.9 ms of it
+  [[nodiscard]] bool isTimed(int step) const { return pictures >= 5 && blur() < 0.07 * step; }
 };
 
 class Path {
@@ -381,14 +384,14 @@ double nearest(const std::vector<double>& onsets, double time) {
 
 /// Prints the table; true when every bounce that pictures can time is heard within half a frame.
 bool compare(const std::vector<Contact>& contacts, const std::vector<double>& onsets,
-             const Film& film) {
-  const double half = 0.5 / film.framesPerSecond;
+             const Film& film, int step) {
+  const double half = kHalfFrame;
   std::vector<double> apart;
   std::size_t bounces = 0;
   std::printf("  frame  instant s  onset s  apart ms  rebound px   blur\n");
   for (const Contact& contact : contacts) {
     bounces += contact.isBounce();
-    if (!contact.isBounce() || !contact.isTimed()) continue;
+    if (!contact.isBounce() || !contact.isTimed(step)) continue;
     const double time = contact.frame / film.framesPerSecond, onset = nearest(onsets, time);
     apart.push_back(std::abs(onset - time));
     std::printf("  %5ld  %9.4f  %7.4f  %+8.2f  %10.1f  %5.3f%s\n", std::lround(contact.frame), time,
@@ -422,10 +425,11 @@ int main(int count, char** words) {
   if (onsets.empty()) return fail("no onset in the sound");
   const auto rows = readRows(film.width, film.height);
   constexpr double kStepsPerSecond = 80;  // of the motion
-  const double steps = film.framesPerSecond / film.speed / kStepsPerSecond;
-  const Path path(rows, std::max(1, static_cast<int>(std::lround(steps))));
+  const int step = std::max(
+      1, static_cast<int>(std::lround(film.framesPerSecond / film.speed / kStepsPerSecond)));
+  const Path path(rows, step);
   if (path.gravity() <= 0) return fail("nothing flies in the pictures");
-  if (!compare(path.contacts(), onsets, film)) {
+  if (!compare(path.contacts(), onsets, film, step)) {
     return fail("picture and sound do not agree, or nothing bounces");
   }
   return 0;

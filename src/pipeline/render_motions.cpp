@@ -66,7 +66,7 @@ Result<void> write(Kind kind, const fs::path& output, const std::vector<FilmPart
                    const Progress& progress, std::vector<std::string>& warnings) {
   if (kind == Kind::kFolder) return writeSequence(output, parts, sound, options, progress);
   if (kind == Kind::kPng) {
-    return still ? writeStill(output, parts, sound, options, *still)
+    return still ? writeStill(output, parts, sound, options, *still, progress)
                  : writeContactSheet(output, parts, options, progress);
   }
   const auto told = writeFilm(output, parts, sound, options, progress);

@@ -22,7 +22,7 @@ namespace {
 // Pictures that are made and not yet written; two cores need a few to stay busy.
 constexpr std::size_t kAhead = 8;
 
-const Error kStopped{ErrorCode::kInterrupted, "interrupted; no film was written", {}, {}};
+const Error kStopped{ErrorCode::kInterrupted, "interrupted; nothing was written", {}, {}};
 
 Result<void> checkParts(const std::vector<FilmPart>& parts) {
   for (const FilmPart& part : parts) {
@@ -36,6 +36,13 @@ Result<void> checkParts(const std::vector<FilmPart>& parts) {
 Result<void> check(const std::vector<FilmPart>& parts, const FilmOptions& options) {
   if (auto good = checkFilmOptions(options); !good) return good;
   return checkParts(parts);
+}
+
+/// Told before the work, not after it.
+Result<void> checkWritable(const fs::path& path) {
+  const auto staged = StagedFolder::open(path.has_parent_path() ? path.parent_path() : ".");
+  if (!staged) return tl::unexpected(staged.error());
+  return {};
 }
 
 /// Hands the pictures to `take` in order. Those of a body at rest are drawn once.
@@ -129,6 +136,7 @@ Result<void> writeContactSheet(const fs::path& path, const std::vector<FilmPart>
   if (!options.camera) options.camera = CameraKind::kCloseUp;
   options.overlay = false;
   if (auto good = check(parts, options); !good) return good;
+  if (auto good = checkWritable(path); !good) return good;
   const Motion& motion = *parts.front().motion;
   const std::size_t contacts = motion.contacts.size();
   if (contacts == 0) return badInput("has no contacts to show", parts.front().name);
@@ -155,12 +163,15 @@ Result<void> writeContactSheet(const fs::path& path, const std::vector<FilmPart>
 }
 
 Result<void> writeStill(const fs::path& path, const std::vector<FilmPart>& parts,
-                        const Sound* sound, const FilmOptions& wanted, double time) {
+                        const Sound* sound, const FilmOptions& wanted, double time,
+                        const Progress& progress) {
   const FilmOptions options = withSize(wanted);
   if (auto good = check(parts, options); !good) return good;
+  if (auto good = checkWritable(path); !good) return good;
   const FilmScene scene(parts, sound, options);
   Image picture = scene.picture(time);
   scene.finish(picture, time);
+  if (progress.stopRequested()) return tl::unexpected(kStopped);
   return render::writePng(path, picture);
 }
 

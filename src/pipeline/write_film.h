@@ -36,6 +36,7 @@ inline constexpr std::size_t kMostSheetPictures = 60;
 /// @param time  of the sound, s
 [[nodiscard]] Result<void> writeStill(const std::filesystem::path& path,
                                       const std::vector<FilmPart>& parts, const Sound* sound,
-                                      const FilmOptions& options, double time);
+                                      const FilmOptions& options, double time,
+                                      const Progress& progress);
 
 }  // namespace ifa

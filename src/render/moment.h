@@ -25,7 +25,7 @@ struct Actor {
   [[nodiscard]] float presenceAt(double time) const;
 };
 
-/// One body at kInstants instants between `open` and `close`.
+/// One body at kInstants instants between `open` and `close`. The actor must outlive it.
 class ActorMoment {
  public:
   struct Placed {
@@ -65,7 +65,7 @@ class ActorMoment {
   Vector centre_;
 };
 
-/// All bodies while the shutter is open.
+/// All bodies while the shutter is open. The actors must outlive it.
 class Moment {
  public:
   /// @param time     s of the stage, the middle of the opening

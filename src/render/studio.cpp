@@ -11,7 +11,7 @@ namespace {
 const Vector kKeyPlace(-0.62f, 0.1f, 0.85f);
 constexpr float kKeyHalf = 0.13f;
 const Colour kKeyRadiance = Colour(1.0f, 0.955f, 0.88f) * 43;
-// The rim over which the key light's reflection fades, as a share of its side.
+// The rim around it that only reflections show, as a share of half its side.
 constexpr float kKeyRim = 0.12f;
 
 const Colour kZenith = Colour(0.92f, 0.96f, 1.04f) * 0.53f;
@@ -25,9 +25,9 @@ struct Panel {
 const std::array<Panel, 2> kPanels = {
     {{{0.85f, 0.45f, 0.42f}, 0.16f, 0.5f, 2.2f}, {{-0.2f, -0.9f, 0.55f}, 0.7f, 0.2f, 0.9f}}};
 
+/// 1 in the square of half side 1, fading to 0 over a rim around it.
 float insideSquare(float x, float y, float rim) {
-  return (1 - smoothStep(1 - rim, 1 + rim, std::abs(x))) *
-         (1 - smoothStep(1 - rim, 1 + rim, std::abs(y)));
+  return (1 - smoothStep(1, 1 + rim, std::abs(x))) * (1 - smoothStep(1, 1 + rim, std::abs(y)));
 }
 
 std::array<float, 9> harmonicsAt(const Vector& d) {
