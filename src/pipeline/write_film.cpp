@@ -41,8 +41,10 @@ Result<void> check(const std::vector<FilmPart>& parts, const FilmOptions& option
 /// Told before the work, not after it.
 Result<void> checkWritable(const fs::path& path) {
   const auto staged = StagedFolder::open(path.has_parent_path() ? path.parent_path() : ".");
-  if (!staged) return tl::unexpected(staged.error());
-  return {};
+  if (staged) return {};
+  Error error = staged.error();
+  error.place = path.string();
+  return tl::unexpected(error);
 }
 
 /// Hands the pictures to `take` in order. Those of a body at rest are drawn once.

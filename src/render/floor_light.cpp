@@ -134,9 +134,16 @@ void FloorLight::lightKey(const ActorMoment& actor, const Studio& studio,
                            actor.centre().y() - height * towards.y(), reach, step);
   std::vector<Blockers> blockers(key_.values.size());
   const int count = std::min(settings.keyRays, samples.perPixel());
-  std::vector<Vector> towardsKey;
+  struct TowardsKey {
+    Vector direction;
+    float light;
+  };
+  std::vector<TowardsKey> towardsKey;
   towardsKey.reserve(samples.all().size());
-  for (const Sample& s : samples.all()) towardsKey.push_back(studio.towardsKey(s.key0, s.key1));
+  for (const Sample& s : samples.all()) {
+    const Vector d = studio.towardsKey(s.key0, s.key1);
+    towardsKey.push_back({d, studio.key(d).x()});
+  }
   for (int row = 0; row < key_.rows; ++row) {
     for (int column = 0; column < key_.columns; ++column) {
       const Vector place(key_.left + (static_cast<float>(column) + 0.5f) * key_.step,
@@ -144,16 +151,18 @@ void FloorLight::lightKey(const ActorMoment& actor, const Studio& studio,
       const auto index = static_cast<std::size_t>(row * key_.columns + column);
       const std::size_t first = samples.indexAt(column, row);
       Blockers& blocked = blockers[index];
-      for (int i = 0; i < count; ++i) {
-        const Sample& s = samples.all()[first + static_cast<std::size_t>(i)];
+      float light = 0, shaded = 0;
+      for (std::size_t i = first; i < first + static_cast<std::size_t>(count); ++i) {
+        const Sample& s = samples.all()[i];
+        light += towardsKey[i].light;
         if (s.choice >= actor.presence()) continue;
-        const float distance =
-            actor.distance({place, towardsKey[first + static_cast<std::size_t>(i)]}, s.instant);
+        const float distance = actor.distance({place, towardsKey[i].direction}, s.instant);
         if (distance == std::numeric_limits<float>::infinity()) continue;
+        shaded += towardsKey[i].light;
         blocked.hits += 1;
         blocked.inverse += 1 / std::max(distance, 1e-5f);
       }
-      key_.values[index] = 1 - blocked.hits / static_cast<float>(count);
+      key_.values[index] = 1 - shaded / std::max(light, 1e-6f);
     }
   }
   blur(key_,

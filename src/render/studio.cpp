@@ -11,8 +11,10 @@ namespace {
 const Vector kKeyPlace(-0.62f, 0.1f, 0.85f);
 constexpr float kKeyHalf = 0.13f;
 const Colour kKeyRadiance = Colour(1.0f, 0.955f, 0.88f) * 43;
-// The rim around it that only reflections show, as a share of half its side.
+// The rim over which the key light fades, as a share of half its side.
 constexpr float kKeyRim = 0.12f;
+// Half the side of all that is lit.
+constexpr float kKeyReach = kKeyHalf * (1 + kKeyRim);
 
 const Colour kZenith = Colour(0.92f, 0.96f, 1.04f) * 0.53f;
 const Colour kHorizon = Colour(1.0f, 0.98f, 0.94f) * 0.31f;
@@ -25,9 +27,10 @@ struct Panel {
 const std::array<Panel, 2> kPanels = {
     {{{0.85f, 0.45f, 0.42f}, 0.16f, 0.5f, 2.2f}, {{-0.2f, -0.9f, 0.55f}, 0.7f, 0.2f, 0.9f}}};
 
-/// 1 in the square of half side 1, fading to 0 over a rim around it.
+/// 1 inside the square of half side 1, fading to 0 over a rim on both sides of its edge.
 float insideSquare(float x, float y, float rim) {
-  return (1 - smoothStep(1, 1 + rim, std::abs(x))) * (1 - smoothStep(1, 1 + rim, std::abs(y)));
+  return (1 - smoothStep(1 - rim, 1 + rim, std::abs(x))) *
+         (1 - smoothStep(1 - rim, 1 + rim, std::abs(y)));
 }
 
 std::array<float, 9> harmonicsAt(const Vector& d) {
@@ -71,12 +74,12 @@ Studio::Studio(float azimuth, const Colour& floorAlbedo)
 }
 
 void Studio::integrate() {
-  constexpr int kSide = 16;
+  constexpr int kSide = 32;
   keyOnFloor_ = Colour::Zero();
   for (int i = 0; i < kSide * kSide; ++i) {
     const Vector d = towardsKey((static_cast<float>(i % kSide) + 0.5f) / kSide,
                                 (static_cast<float>(i / kSide) + 0.5f) / kSide);
-    keyOnFloor_ += kKeyRadiance * d.z() / keyDensity(d) / (kSide * kSide);
+    keyOnFloor_ += key(d) * d.z() / keyDensity(d) / (kSide * kSide);
   }
   skyOnFloor_ = Colour::Zero();
   overSphere([&](const Vector& d, float solid) {
@@ -130,18 +133,18 @@ Colour Studio::key(const Vector& d) const {
 }
 
 Vector Studio::towardsKey(float u, float v) const {
-  return keyFrame_.toWorld((2 * u - 1) * kKeyHalf, (2 * v - 1) * kKeyHalf, 1).normalized();
+  return keyFrame_.toWorld((2 * u - 1) * kKeyReach, (2 * v - 1) * kKeyReach, 1).normalized();
 }
 
 float Studio::keyDensity(const Vector& d) const {
   const float along = d.dot(keyFrame_.normal);
   if (along <= 0) return 0;
   const float x = d.dot(keyFrame_.tangent) / along, y = d.dot(keyFrame_.bitangent) / along;
-  if (std::abs(x) > kKeyHalf || std::abs(y) > kKeyHalf) return 0;
-  return 1 / (4 * kKeyHalf * kKeyHalf * along * along * along);
+  if (std::abs(x) > kKeyReach || std::abs(y) > kKeyReach) return 0;
+  return 1 / (4 * kKeyReach * kKeyReach * along * along * along);
 }
 
-float Studio::keyAngle() const { return std::atan(kKeyHalf * std::sqrt(2.0f)); }
+float Studio::keyAngle() const { return std::atan(kKeyReach * std::sqrt(2.0f)); }
 
 Colour Studio::ambient(const Vector& normal) const {
   const auto basis = harmonicsAt(normal);

@@ -20,9 +20,9 @@ class Studio {
   [[nodiscard]] Colour sky(const Vector& d) const;
   /// The same without the lamps that are seen in shiny things, for what blurs them away.
   [[nodiscard]] Colour softSky(const Vector& d) const;
-  /// The key light's radiance from direction `d`: the same all over its square, fading around it.
+  /// The key light's radiance from direction `d`: a square with a soft rim, zero outside.
   [[nodiscard]] Colour key(const Vector& d) const;
-  /// Direction to a point of the key light, even over its square; u, v in [0, 1).
+  /// Direction to a point of the key light, even over its square and rim; u, v in [0, 1).
   [[nodiscard]] Vector towardsKey(float u, float v) const;
   /// Density of towardsKey per unit of solid angle, zero outside.
   [[nodiscard]] float keyDensity(const Vector& d) const;
