@@ -29,7 +29,7 @@ namespace {
 using namespace ifa::render;
 
 constexpr int kWidth = 640, kHeight = 360, kSamples = 16, kRounds = 5;
-constexpr std::size_t kFrames = 24;
+constexpr std::size_t kFrames = 24, kBareFrames = kFrames / 4;
 constexpr double kGoal = 0.6;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
@@ -233,12 +233,12 @@ bool run(const std::string& object) {
     times.push_back(1e3 * time / kFrames);
     std::atomic<long> rays{0};
     start = seconds();
-    ifa::parallelFor(kFrames / 4, [&](std::size_t i) {
+    ifa::parallelFor(kBareFrames, [&](std::size_t i) {
       rays += bareFrame(*bare[4 * i], camera, studio.keyDirection(), samples);
     });
     const double bareTime = seconds() - start;
     bares.push_back(static_cast<double>(rays.load()) / bareTime / 1e6);
-    bareTimes.push_back(1e3 * bareTime / (kFrames / 4));
+    bareTimes.push_back(1e3 * bareTime / kBareFrames);
   }
   const double ratio = median(ours) / median(bares);
   fmt::print(

@@ -43,8 +43,8 @@ Image contactSheet(const std::vector<SheetEntry>& entries, const std::string& ti
     canvas.rectangle(0, 0, sheet.width, sheet.height, kGround);
     canvas.text(kGap, 1.6 * size, 1.2 * size, Align::kLeft, title, kLetters);
     for (int i = 0; i < count; ++i) {
-      canvas.text(kGap + i % columns * cellWidth,
-                  head + i / columns * cellHeight + first.height + 1.2 * size, size, Align::kLeft,
+      const int left = kGap + i % columns * cellWidth, top = head + i / columns * cellHeight;
+      canvas.text(left, top + first.height + 1.2 * size, size, Align::kLeft,
                   entries[static_cast<std::size_t>(i)].caption, kLetters);
     }
   }

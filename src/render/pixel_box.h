@@ -31,8 +31,9 @@ struct PixelBox {
   void includeGrid(const FloorGrid<T>& grid, const Camera& camera) {
     if (grid.values.empty()) return;
     for (int corner = 0; corner < 4; ++corner) {
-      const Vector place(grid.left + static_cast<float>(corner % 2 * grid.columns) * grid.step,
-                         grid.low + static_cast<float>(corner / 2 * grid.rows) * grid.step, 0);
+      const int column = corner % 2 * grid.columns, row = corner / 2 * grid.rows;
+      const Vector place(grid.left + static_cast<float>(column) * grid.step,
+                         grid.low + static_cast<float>(row) * grid.step, 0);
       const Vector seen = camera.project(place);
       include(seen.x(), seen.y(), 1, camera);
     }

@@ -77,8 +77,9 @@ void Studio::integrate() {
   constexpr int kSide = 32;
   keyOnFloor_ = Colour::Zero();
   for (int i = 0; i < kSide * kSide; ++i) {
-    const Vector d = towardsKey((static_cast<float>(i % kSide) + 0.5f) / kSide,
-                                (static_cast<float>(i / kSide) + 0.5f) / kSide);
+    const int column = i % kSide, row = i / kSide;
+    const Vector d = towardsKey((static_cast<float>(column) + 0.5f) / kSide,
+                                (static_cast<float>(row) + 0.5f) / kSide);
     keyOnFloor_ += key(d) * d.z() / keyDensity(d) / (kSide * kSide);
   }
   skyOnFloor_ = Colour::Zero();

@@ -26,7 +26,8 @@ class ScreenCurve {
   /// @param value  0 to 1; what is no number is black
   [[nodiscard]] std::uint8_t operator()(float value) const {
     const float root = std::sqrt(std::min(std::max(0.0f, value), 1.0f));
-    return table_[static_cast<std::size_t>(root * (kSize - 1) + 0.5f)];
+    constexpr float kHalf = 0.5f;
+    return table_[static_cast<std::size_t>(root * (kSize - 1) + kHalf)];
   }
 
  private:
