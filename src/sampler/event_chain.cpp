@@ -13,6 +13,13 @@ constexpr double kInstant = 1e-9;
 /// to the next that is heard. So many times in a row, before the simulation is left there.
 constexpr int kMostMisses = 32;
 
+/// Says how the next event follows.
+void joinNext(EventRecord& record, double gap, const Eigen::Vector2d& way, bool silent) {
+  record.gap = static_cast<float>(gap);
+  record.next = {static_cast<float>(way.x()), static_cast<float>(way.y())};
+  record.flags |= EventRecord::kFollowed | (silent ? EventRecord::kSilentPassage : 0U);
+}
+
 }  // namespace
 
 /// Takes one step; false at rest.
@@ -76,6 +83,21 @@ EventRecord recordOf(const ContactEvent& event) {
   return record;
 }
 
+void appendRecords(const std::vector<ContactStep>& steps, const std::vector<ContactEvent>& events,
+                   std::vector<EventRecord>& out) {
+  for (std::size_t k = 0; k < events.size(); ++k) {
+    const ContactEvent& event = events[k];
+    out.push_back(recordOf(event));
+    if (k + 1 == events.size()) return;
+    const ContactEvent& next = events[k + 1];
+    const bool silent = std::any_of(steps.begin(), steps.end(), [&](const ContactStep& step) {
+      return step.time + step.duration > event.end + kInstant && step.time < next.start - kInstant;
+    });
+    const Eigen::Vector3d way = next.before.position - event.before.position;
+    joinNext(out.back(), next.start - event.end, way.head<2>(), silent);
+  }
+}
+
 void EventChain::simulate(const RigidState& start, double timeLimit,
                           std::vector<EventRecord>& out) {
   PackedState state = pack(start);
@@ -85,12 +107,7 @@ void EventChain::simulate(const RigidState& start, double timeLimit,
   for (int misses = 0; time < timeLimit && misses < kMostMisses; ++misses) {
     const ChainLink link = follow(state, timeLimit - time);
     if (link.heard) {
-      if (waiting) {
-        EventRecord& last = out.back();
-        last.gap = static_cast<float>(gap);
-        last.next = {static_cast<float>(way.x()), static_cast<float>(way.y())};
-        last.flags |= EventRecord::kFollowed | (silent ? EventRecord::kSilentPassage : 0U);
-      }
+      if (waiting) joinNext(out.back(), gap, way, silent);
       out.push_back(recordOf(link.event));
       out.back().before = state;
       waiting = true;

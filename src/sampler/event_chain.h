@@ -55,4 +55,10 @@ class EventChain {
 /// The record of an event by itself, not followed by another. Places count from where it begins.
 [[nodiscard]] EventRecord recordOf(const ContactEvent& event);
 
+/// Appends the records of an unbroken simulation, each followed by the next. What they store is
+/// what was simulated, rounded; from that state alone it is not given again.
+/// @param steps  of the whole simulation  @param events  found in them
+void appendRecords(const std::vector<ContactStep>& steps, const std::vector<ContactEvent>& events,
+                   std::vector<EventRecord>& out);
+
 }  // namespace ifa

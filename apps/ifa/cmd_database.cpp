@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: Apache-2.0
+// `ifa database`: build, merge and look at event databases.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "body/object_file.h"
+#include "command.h"
+#include "database/database.h"
+#include "database/merge.h"
+#include "pipeline/build_database.h"
+
+namespace ifa::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct BuildOptions {
+  std::string object, surface, shard, backend = "native";
+  fs::path output;
+  DatabaseRequest request;
+};
+
+struct MergeOptions {
+  std::vector<fs::path> shards;
+  fs::path output;
+};
+
+struct InfoOptions {
+  fs::path file;
+  std::string object;
+  bool check = false;
+};
+
+template <class Number>
+bool readNumber(std::string_view text, Number& number) {
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return code == std::errc() && end == text.data() + text.size();
+}
+
+/// Reads "I/N"; CLI::Validator's way to say what is wrong.
+std::string readShard(const std::string& text, DatabaseRequest& request) {
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const std::string_view all = text;
+  const bool good = slash < all.size() && readNumber(all.substr(0, slash), request.shard) &&
+                    readNumber(all.substr(slash + 1), request.shards) && request.shard >= 1 &&
+                    request.shard <= request.shards && request.shards <= 100000;
+  return good ? std::string() : text + " is not I/N with I from 1 to N";
+}
+
+Result<SurfaceProperties> findSurface(const Body& body, std::string& name) {
+  const ObjectDefinition& definition = body.definition;
+  if (name.empty()) name = definition.defaultSurface;
+  const auto found = definition.surfaces.find(name);
+  if (found != definition.surfaces.end()) return found->second;
+  std::string names;
+  for (const auto& entry : definition.surfaces) names += (names.empty() ? "" : ", ") + entry.first;
+  return badInput(fmt::format("{} knows no surface {}", definition.name, name), "--surface",
+                  "one of " + names);
+}
+
+/// Where the file goes: as named, else the cache.
+Result<fs::path> outputOf(const BuildOptions& options, const DatabaseRequest& request) {
+  if (!options.output.empty()) return options.output;
+  if (request.shards > 1) {
+    return tl::unexpected<Error>(
+        {ErrorCode::kUsage, "a shard needs a file of its own", "--shard", "name it with -o"});
+  }
+  const fs::path path = cachedDatabasePath(identityOf(request));
+  if (path.empty()) {
+    return tl::unexpected<Error>({ErrorCode::kUsage, "there is no cache folder", "-o",
+                                  "name a file with -o, or set XDG_CACHE_HOME"});
+  }
+  std::error_code code;
+  fs::create_directories(path.parent_path(), code);
+  return path;
+}
+
+std::string builtText(const DatabaseBuild& build, const fs::path& output, double seconds) {
+  const std::string counts =
+      fmt::format("{} simulations, {} events", build.simulations, build.events);
+  if (build.wasThere) return fmt::format("{} are in {} already", counts, output.string());
+  const std::uint64_t now = build.simulations - build.simulatedBefore;
+  std::string text = fmt::format("{} written to {}", counts, output.string());
+  if (build.simulatedBefore > 0) text += fmt::format(" ({} from before)", build.simulatedBefore);
+  return text + fmt::format(", {:.0f} simulations/s", static_cast<double>(now) / seconds);
+}
+
+int runBuild(const BuildOptions& options, CommandContext& context) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto body = loadObject(options.object);
+  if (!body) return context.fail(body.error());
+  DatabaseRequest request = options.request;
+  request.body = &*body;
+  request.backend = options.backend == "ode" ? Backend::kOde : Backend::kNative;
+  request.surfaceName = options.surface;
+  const auto surface = findSurface(*body, request.surfaceName);
+  if (!surface) return context.fail(surface.error());
+  request.surface = withReferenceImpulse(*body, *surface, context.progress);
+  const auto output = outputOf(options, request);
+  if (!output) return context.fail(output.error());
+  // In the cache nobody wants an error because it is there, or was begun.
+  request.resume = request.resume || options.output.empty();
+  const auto build = buildDatabase(request, *output, context.progress);
+  if (!build) return context.fail(build.error());
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  context.console.result(builtText(*build, *output, took.count()));
+  return context.succeed(output->string());
+}
+
+int runMerge(const MergeOptions& options, CommandContext& context) {
+  if (const auto merged = mergeDatabases(options.shards, options.output, context.progress);
+      !merged) {
+    return context.fail(merged.error());
+  }
+  const auto database = EventDatabase::open(options.output);
+  if (!database) return context.fail(database.error());
+  context.console.result(fmt::format("{} simulations, {} events written to {}",
+                                     database->simulations(), database->events(),
+                                     options.output.string()));
+  return context.succeed(options.output.string());
+}
+
+std::string row(const char* label, const std::string& text) {
+  return fmt::format("  {:<16}{}\n", label, text);
+}
+
+/// Smallest, tenth, half, nine tenths, largest, each times `unit`.
+std::string quantilesOf(std::vector<float> values, double unit, const char* name) {
+  if (values.empty()) return "none";
+  std::sort(values.begin(), values.end());
+  std::string text;
+  for (const double share : {0.0, 0.1, 0.5, 0.9, 1.0}) {
+    const auto i = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
+    text += fmt::format("{}{:.4g}", text.empty() ? "" : ", ", unit * values[i]);
+  }
+  return fmt::format("{} {} (least, 10 %, median, 90 %, most)", text, name);
+}
+
+std::string eventsText(const EventDatabase& database) {
+  std::vector<float> counts;
+  for (std::size_t k = 0; k < database.simulations(); ++k) {
+    counts.push_back(static_cast<float>(database.firstEvent(k + 1) - database.firstEvent(k)));
+  }
+  return quantilesOf(std::move(counts), 1, "a simulation");
+}
+
+std::string settingsText(const DatabaseSettings& s) {
+  std::string text = fmt::format(
+      "restitution {:.4g}, friction {:.4g}, J_ref {:.4g} N s, cone {:g} degrees, "
+      "{:g} to {:g} m/s, {:g} to {:g} rad/s",
+      s.restitution, s.friction, s.referenceImpulse, s.coneDegrees, s.speed[0], s.speed[1],
+      s.spin[0], s.spin[1]);
+  return s.odeStep > 0 ? text + fmt::format(", ODE at {:g} ms", 1e3 * s.odeStep) : text;
+}
+
+std::string headerText(const EventDatabase& database) {
+  const DatabaseHeader& header = database.header();
+  const DatabaseIdentity& id = header.identity;
+  std::string text = fmt::format("{}: {} on {}\n", database.path().string(), nameIn(id.object),
+                                 nameIn(id.surface));
+  text += row("simulations",
+              fmt::format("{} to {} of {}, seed {}, {} kernel, version {}", header.firstSimulation,
+                          header.firstSimulation + header.simulations - 1, id.allSimulations,
+                          id.seed, backendName(id.backend), id.simulationVersion));
+  const auto events = static_cast<double>(std::max<std::uint64_t>(header.events, 1));
+  text += row("events", fmt::format("{}, {:.4g} a simulation", header.events,
+                                    events / static_cast<double>(header.simulations)));
+  text += row("size", fmt::format("{:.4g} MB, {:.1f} bytes an event",
+                                  1e-6 * static_cast<double>(header.fileBytes),
+                                  static_cast<double>(header.fileBytes) / events));
+  text += row("settings", settingsText(id.settings));
+  return text + row("hashes", fmt::format("file {:016x}, body {:016x}, settings {:016x}",
+                                          database.hash(), id.bodyHash, id.settingsHash));
+}
+
+std::string columnsText(const EventDatabase& database) {
+  std::size_t terminal = 0, followed = 0, silent = 0;
+  std::vector<float> gaps;
+  const auto flags = database.flags();
+  for (std::size_t i = 0; i < flags.size(); ++i) {
+    terminal += (flags[i] & EventRecord::kTerminal) != 0 ? 1 : 0;
+    silent += (flags[i] & EventRecord::kSilentPassage) != 0 ? 1 : 0;
+    if ((flags[i] & EventRecord::kFollowed) == 0) continue;
+    ++followed;
+    gaps.push_back(database.values(kGap)[i]);
+  }
+  const auto all = [&](Column column) {
+    const auto values = database.values(column);
+    return std::vector<float>(values.begin(), values.end());
+  };
+  std::string text = row("terminal", fmt::format("{} events", terminal));
+  text +=
+      row("passages", fmt::format("{} flights, {} with silent contact", followed - silent, silent));
+  text += row("per simulation", eventsText(database));
+  text += row("duration", quantilesOf(all(kDuration), 1e3, "ms"));
+  text += row("to the next", quantilesOf(std::move(gaps), 1e3, "ms"));
+  return text + row("amplitude", quantilesOf(all(kAmplitude), 1e3, "mN s"));
+}
+
+int runInfo(const InfoOptions& options, CommandContext& context) {
+  const auto database = EventDatabase::open(options.file);
+  if (!database) return context.fail(database.error());
+  if (!options.object.empty()) {
+    const auto body = loadObject(options.object);
+    if (!body) return context.fail(body.error());
+    if (const auto same = database->checkBody(*body); !same) return context.fail(same.error());
+  }
+  if (options.check) {
+    if (const auto good = database->check(context.progress); !good) {
+      return context.fail(good.error());
+    }
+  }
+  std::string text = headerText(*database) + columnsText(*database);
+  if (options.check) text += row("check", "every checksum holds");
+  text.pop_back();
+  context.console.result(text);
+  return context.succeed();
+}
+
+void addBuild(CLI::App& database, CommandContext& context) {
+  auto options = std::make_shared<BuildOptions>();
+  CLI::App* command = database.add_subcommand("build", "simulate an object many times");
+  command->add_option("OBJECT", options->object, "name or object file")->required();
+  command->add_option("-n,--simulations", options->request.simulations, "how many")
+      ->required()
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1000000000}));
+  command->add_option("-o,--out", options->output, "file to write (default: the cache)");
+  command->add_option("--surface", options->surface, "of the object file (default: its own)");
+  command->add_option("--seed", options->request.seed, "of the initial states")
+      ->capture_default_str();
+  command->add_option("--shard", options->shard, "make part I of N only; ifa database merge joins")
+      ->check(CLI::Validator(
+          [](const std::string& text) {
+            DatabaseRequest ignored;
+            return readShard(text, ignored);
+          },
+          "I/N", "shard"));
+  command->add_flag("--resume", options->request.resume, "go on with an interrupted build");
+  command->add_option("--backend", options->backend, "native, or ode for comparison")
+      ->check(CLI::IsMember({"native", "ode"}))
+      ->capture_default_str();
+  command->callback([options, &context] {
+    if (!options->shard.empty()) (void)readShard(options->shard, options->request);
+    context.action = [options, &context] { return runBuild(*options, context); };
+  });
+}
+
+void addMerge(CLI::App& database, CommandContext& context) {
+  auto options = std::make_shared<MergeOptions>();
+  CLI::App* command = database.add_subcommand("merge", "join the shards of a database");
+  command->add_option("SHARDS", options->shards, "all of them, in any order")->required();
+  command->add_option("-o,--out", options->output, "file to write")->required();
+  command->callback([options, &context] {
+    context.action = [options, &context] { return runMerge(*options, context); };
+  });
+}
+
+void addInfo(CLI::App& database, CommandContext& context) {
+  auto options = std::make_shared<InfoOptions>();
+  CLI::App* command = database.add_subcommand("info", "what is in a database");
+  command->add_option("FILE", options->file, "database")->required();
+  command->add_flag("--check", options->check, "read all of it and compare the checksums");
+  command->add_option("--object", options->object, "fail unless it was made of this object");
+  command->callback([options, &context] {
+    context.action = [options, &context] { return runInfo(*options, context); };
+  });
+}
+
+}  // namespace
+
+void addDatabaseCommand(CLI::App& app, CommandContext& context) {
+  CLI::App* command = app.add_subcommand("database", "build, merge and check event databases");
+  command->require_subcommand(1);
+  addBuild(*command, context);
+  addMerge(*command, context);
+  addInfo(*command, context);
+}
+
+}  // namespace ifa::cli
