@@ -235,6 +235,7 @@ void addBuild(CLI::App& database, CommandContext& context) {
   command->add_option("-o,--out", options->output, "file to write (default: the cache)");
   command->add_option("--surface", options->surface, "of the object file (default: its own)");
   command->add_option("--seed", options->request.seed, "of the initial states")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command->add_option("--shard", options->shard, "make part I of N only; ifa database merge joins")
       ->check(CLI::Validator(
