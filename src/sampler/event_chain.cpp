@@ -58,7 +58,11 @@ ChainLink EventChain::follow(const PackedState& before, double timeLimit) {
   const std::vector<ContactEvent> found = recorder.finish(link.rests);
   // What the time limit cut off is not known to its end.
   link.heard = !late && !found.empty() && found[0].start <= 0;
-  if (link.heard) link.event = found[0];
+  if (link.heard) {
+    link.event = found[0];
+    // To the bit what it starts from; the spin was turned into the body's frame and back.
+    link.event.before = unpack(before);
+  }
   link.followed = !late && found.size() > (link.heard ? 1U : 0U);
   if (!link.followed) return link;
   const ContactEvent& next = found[link.heard ? 1 : 0];

@@ -44,6 +44,8 @@ TEST_P(EventChainTest, EveryRecordIsGivenAgainByItsPreContactState) {
     for (const EventRecord& stored : simulate(i)) {
       const ChainLink link = chain.follow(stored.before, kTimeLimit);
       ASSERT_TRUE(link.heard);
+      EXPECT_EQ(link.event.before.orientation.coeffs(), unpack(stored.before).orientation.coeffs());
+      EXPECT_EQ(link.event.before.angularVelocity, unpack(stored.before).angularVelocity);
       const EventRecord again = recordOf(link.event);
       EXPECT_EQ(again.after, stored.after);
       EXPECT_EQ(again.shift, stored.shift);
