@@ -45,5 +45,6 @@ void addObjectsCommand(CLI::App& app, CommandContext& context);
 void addRenderCommand(CLI::App& app, CommandContext& context);
 void addVerifyCommand(CLI::App& app, CommandContext& context);
 void addEvaluateCommand(CLI::App& app, CommandContext& context);
+void addDatabaseCommand(CLI::App& app, CommandContext& context);
 
 }  // namespace ifa::cli

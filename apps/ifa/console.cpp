@@ -63,6 +63,7 @@ void Console::progress(std::string_view stage, double share) {
   if (newStage) {
     stage_ = stage;
     stageStart_ = now;
+    firstShare_ = share;
     lastShare_ = -1;
   }
   // A reader wants to see it move, not every step of a search.
@@ -81,8 +82,9 @@ void Console::progress(std::string_view stage, double share) {
 void Console::drawProgress(std::string_view stage, double share) {
   const double elapsed = std::chrono::duration<double>(Clock::now() - stageStart_).count();
   std::string text = fmt::format("\r{} {:3.0f} %", stage, 100 * share);
-  if (share > 0.02 && share < 1 && elapsed > 0.5) {
-    text += ", " + remainingTime(elapsed * (1 - share) / share);
+  const double done = share - firstShare_;
+  if (done > 0.02 * (1 - firstShare_) && share < 1 && elapsed > 0.5) {
+    text += ", " + remainingTime(elapsed * (1 - share) / done);
   }
   text += "\x1b[K";
   std::fwrite(text.data(), 1, text.size(), stderr);

@@ -49,6 +49,7 @@ class Console {
   std::string stage_;
   Clock::time_point stageStart_, lastDrawn_;
   double lastShare_ = -1;
+  double firstShare_ = 0;  ///< of the stage: work that is resumed does not begin at 0
 };
 
 }  // namespace ifa::cli

@@ -29,6 +29,8 @@ void listenToSignals() {
   action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
   ::sigaction(SIGINT, &action, nullptr);
   ::sigaction(SIGTERM, &action, nullptr);
+  // A file that may not grow is an error like a full disk, not a reason to die.
+  ::signal(SIGXFSZ, SIG_IGN);
 }
 
 void addCommands(CLI::App& app, CommandContext& context) {
@@ -38,6 +40,7 @@ void addCommands(CLI::App& app, CommandContext& context) {
   addRenderCommand(app, context);
   addVerifyCommand(app, context);
   addEvaluateCommand(app, context);
+  addDatabaseCommand(app, context);
 }
 
 struct GlobalOptions {

@@ -4,12 +4,15 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 
 namespace ifa::test {
 
@@ -28,7 +31,7 @@ struct Running {
   ::_exit(127);
 }
 
-Running start(const std::vector<std::string>& arguments) {
+Running start(const std::vector<std::string>& arguments, rlim_t largestFile = RLIM_INFINITY) {
   std::array<int, 2> out{}, err{};
   if (::pipe2(out.data(), O_CLOEXEC) != 0 || ::pipe2(err.data(), O_CLOEXEC) != 0) {
     throw std::runtime_error("no pipe");
@@ -39,6 +42,8 @@ Running start(const std::vector<std::string>& arguments) {
     ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
     ::dup2(out[1], STDOUT_FILENO);
     ::dup2(err[1], STDERR_FILENO);
+    const rlimit limit = {largestFile, largestFile};
+    if (largestFile != RLIM_INFINITY) ::setrlimit(RLIMIT_FSIZE, &limit);
     becomeProgram(arguments);
   }
   ::close(out[1]);
@@ -87,6 +92,17 @@ ProgramResult runAndSignal(const std::vector<std::string>& arguments, const std:
     ::kill(running.process, signal);
     sent = true;
   });
+}
+
+ProgramResult runAndKill(const std::vector<std::string>& arguments, double seconds) {
+  const Running running = start(arguments);
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+  ::kill(running.process, SIGKILL);
+  return follow(running, [](const ProgramResult&, bool) {});
+}
+
+ProgramResult runWithLargestFile(const std::vector<std::string>& arguments, std::uint64_t bytes) {
+  return follow(start(arguments, bytes), [](const ProgramResult&, bool) {});
 }
 
 std::vector<std::string> linesOf(const std::string& text) {

@@ -4,6 +4,7 @@
 
 #include <sys/types.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,12 @@ ProgramResult runProgram(const std::vector<std::string>& arguments);
 /// Runs it, and sends it `signal` once it has written `text` to stderr (or after ten seconds).
 ProgramResult runAndSignal(const std::vector<std::string>& arguments, const std::string& text,
                            int signal);
+
+/// Runs it and kills it (SIGKILL) after `seconds`, if it is not done by then.
+ProgramResult runAndKill(const std::vector<std::string>& arguments, double seconds);
+
+/// Runs it where no file may grow larger than `bytes`, as on a disk that is full.
+ProgramResult runWithLargestFile(const std::vector<std::string>& arguments, std::uint64_t bytes);
 
 /// The lines of a text that are not empty.
 std::vector<std::string> linesOf(const std::string& text);

@@ -25,7 +25,7 @@ TEST(Usage, VersionIsOneLineOnStdout) {
 TEST(Usage, HelpNamesEveryCommand) {
   const auto result = runProgram({"--help"});
   EXPECT_EQ(result.exit, 0);
-  for (const char* command : {"sync", "detect", "objects", "verify", "evaluate"}) {
+  for (const char* command : {"sync", "detect", "objects", "verify", "evaluate", "database"}) {
     EXPECT_THAT(result.out, HasSubstr(std::string("\n  ") + command)) << command;
     EXPECT_EQ(runProgram({command, "--help"}).exit, 0) << command;
   }
