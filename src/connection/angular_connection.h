@@ -23,7 +23,7 @@ struct ShootingSettings {
   ShootingStep step = ShootingStep::kVector;
   double tolerance = 1e-10;          ///< rad, angle missed that counts as none
   double largestTurn = 0.174532925;  ///< rad, |change of spin| T of a step at most; 10 degrees, printed
-  int mostSteps = 60;                ///< Decision: then it is taken not to converge
+  int mostSteps = 60;                ///< Decision: then it is taken not to converge; of each try
 };
 
 /// How a shooting went, and the spin found.
