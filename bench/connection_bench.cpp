@@ -36,9 +36,9 @@ using ifa::ContactEvent;
 
 constexpr std::uint64_t kSeed = 4711;
 constexpr std::size_t kDrops = 20000, kSources = 1000, kNeighbours = 5;
-constexpr double kLeastLog = -10;         // of f_v and of f_q: what the paper explores (5.5)
-constexpr double kTimeLimit = 20;         // s
-constexpr double kRightAngle = 1e-5;      // rad, against Runge and Kutta
+constexpr double kLeastLog = -10;     // of f_v and of f_q: what the paper explores (5.5)
+constexpr double kTimeLimit = 20;     // s
+constexpr double kRightAngle = 1e-5;  // rad, against Runge and Kutta
 
 /// A contact with the one that follows it after a flight.
 struct Passage {
@@ -167,9 +167,9 @@ Figures measure(const Body& body, const BodyModel& model, const std::vector<Pair
     const bool shot = c.made() || c.failure == ConnectionFailure::kUnderGround;
     if (!shot) continue;
     figures.steps.push_back(c.steps);
-    figures.worstAngle = std::max(figures.worstAngle,
-                                  angle(flown(body, c.departure, c.time.flightTime),
-                                        c.target.orientation));
+    figures.worstAngle =
+        std::max(figures.worstAngle,
+                 angle(flown(body, c.departure, c.time.flightTime), c.target.orientation));
     if (!c.made()) continue;
     const ifa::RigidState& own = pair.source->first.after;
     figures.leaving.push_back(bendOf(pair.source->first, c.departure.velocity - own.velocity,
@@ -202,14 +202,15 @@ struct Way {
 };
 
 std::vector<Way> ways(double depth) {
-  ConnectionSettings exact, departure, mean, printed = ConnectionSettings::printed();
+  ConnectionSettings exact, departure, wide, printed = ConnectionSettings::printed();
   departure.registerAt = ifa::RegisterAt::kDeparture;
-  mean.guess = ifa::ShootingGuess::kMeanMomentum;
+  wide.registerAt = ifa::RegisterAt::kDeparture;
+  wide.shooting.largestTurn = 0.5235987756;  // 30 degrees
   ConnectionSettings vector = printed;
   vector.shooting = exact.shooting;
   std::vector<Way> all = {{"exact", exact},
                           {"exact, at departure", departure},
-                          {"exact, mean momentum", mean},
+                          {"the same, 30 degrees", wide},
                           {"printed", printed},
                           {"printed, vector", vector}};
   for (Way& way : all) way.settings.depth = depth;
@@ -234,7 +235,8 @@ bool run(const std::string& object) {
     const auto share = [&](ConnectionFailure why) { return 100 * f.outcomes[why] / all; };
     fmt::print(
         "  {:<21} made {:5.1f} %, no spin {:.2f} %, under ground {:4.1f} %, warp {:4.1f} %; steps "
-        "{:4.1f} mean {:2.0f} most; bend {:5.2f} leaving {:5.2f} arriving; {:6.1f} us; RK4 {:.0e}\n",
+        "{:4.1f} mean {:2.0f} most; bend {:5.2f} leaving {:5.2f} arriving; {:6.1f} us; RK4 "
+        "{:.0e}\n",
         name, share(ConnectionFailure::kNone), share(ConnectionFailure::kNotConverged),
         share(ConnectionFailure::kUnderGround), share(ConnectionFailure::kTimeWarp),
         ifa::mean(f.steps), f.steps.empty() ? 0 : *std::max_element(f.steps.begin(), f.steps.end()),

@@ -120,8 +120,8 @@ AngularConnection angularConnection(const BodyModel& model, const Quaterniond& f
   return found;
 }
 
-Vector3d meanMomentumSpin(const BodyModel& model, const Quaterniond& from,
-                          const Vector3d& spinFrom, const Quaterniond& to, const Vector3d& spinTo) {
+Vector3d meanMomentumSpin(const BodyModel& model, const Quaterniond& from, const Vector3d& spinFrom,
+                          const Quaterniond& to, const Vector3d& spinTo) {
   const Rotation<double> first(quat(from)), last(quat(to));
   const Vec<double> sum = angularMomentum(model, first, first.transposed(vec(spinFrom))) +
                           angularMomentum(model, last, last.transposed(vec(spinTo)));

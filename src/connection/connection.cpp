@@ -78,19 +78,24 @@ ConnectionSettings ConnectionSettings::printed() {
   return settings;
 }
 
-ConnectionEnds connectionEnds(const ContactEvent& i, const ContactEvent& j,
-                              const ContactEvent& k) {
+ConnectionEnds connectionEnds(const ContactEvent& i, const ContactEvent& j, const ContactEvent& k) {
   return {i.after, j.after, k.before, k.start - j.end, !i.touchingAfter && !j.touchingAfter};
 }
 
 std::string_view describe(ConnectionFailure failure) {
   switch (failure) {
-    case ConnectionFailure::kNone: return "connected";
-    case ConnectionFailure::kNotFlight: return "what follows the contact is not a flight";
-    case ConnectionFailure::kNoTime: return "there is no time between the contacts";
-    case ConnectionFailure::kTimeWarp: return "the flight's own time is too far from the target";
-    case ConnectionFailure::kNotConverged: return "no spin leads to the next contact's pose";
-    case ConnectionFailure::kUnderGround: return "the body would go under the ground";
+    case ConnectionFailure::kNone:
+      return "connected";
+    case ConnectionFailure::kNotFlight:
+      return "what follows the contact is not a flight";
+    case ConnectionFailure::kNoTime:
+      return "there is no time between the contacts";
+    case ConnectionFailure::kTimeWarp:
+      return "the flight's own time is too far from the target";
+    case ConnectionFailure::kNotConverged:
+      return "no spin leads to the next contact's pose";
+    case ConnectionFailure::kUnderGround:
+      return "the body would go under the ground";
   }
   return "";
 }

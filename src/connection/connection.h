@@ -73,12 +73,12 @@ struct Connection {
   ConnectionFailure failure = ConnectionFailure::kNone;
   Registration registration;  ///< lays the target's simulation into the source's world
   RigidState departure;       ///< i+ with v_blend and omega_blend: where the flight starts
-  RigidState arrival;  ///< its end: pose of the registered target, velocities of the flight
-  RigidState target;   ///< the registered target, with its simulated velocities
-  TimeWarp time;       ///< of flight, and shown; the same for an exact connection
-  int steps = 0;       ///< Newton steps
-  double missed = 0;   ///< angle left by them, rad
-  double underAt = 0;  ///< s of flight after which the body sinks, for kUnderGround
+  RigidState arrival;         ///< its end: pose of the registered target, velocities of the flight
+  RigidState target;          ///< the registered target, with its simulated velocities
+  TimeWarp time;              ///< of flight, and shown; the same for an exact connection
+  int steps = 0;              ///< Newton steps
+  double missed = 0;          ///< angle left by them, rad
+  double underAt = 0;         ///< s of flight after which the body sinks, for kUnderGround
 
   [[nodiscard]] bool made() const { return failure == ConnectionFailure::kNone; }
 };

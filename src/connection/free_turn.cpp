@@ -54,7 +54,9 @@ class VariationSeries {
  private:
   static constexpr int kOrder = 7;
 
-  static Vec3 halfProduct(const Vec3& a, const Vec3& b) { return {a.y * b.z, a.z * b.x, a.x * b.y}; }
+  static Vec3 halfProduct(const Vec3& a, const Vec3& b) {
+    return {a.y * b.z, a.z * b.x, a.x * b.y};
+  }
   [[nodiscard]] Vec3 scaled(const Vec3& v, double share) const {
     return {v.x * euler_.x * share, v.y * euler_.y * share, v.z * euler_.z * share};
   }

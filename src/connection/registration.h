@@ -30,9 +30,9 @@ struct Registration {
 
 /// The planar motion that lays `moved` over `onto`: centres of mass above one another, and the
 /// smallest angle between the orientations (Shin et al. 2001). With r = q_onto q_moved^-1 =
-/// (w, x, y, z) the turn is 2 atan2(z, w) and the angle left 2 acos sqrt(w^2 + z^2). Decision: where
-/// w = z = 0 (one body stands on its head as seen from the other) every turn is as good, and none
-/// is made.
+/// (w, x, y, z) the turn is 2 atan2(z, w) and the angle left 2 acos sqrt(w^2 + z^2). Decision:
+/// where w = z = 0 (one body stands on its head as seen from the other) every turn is as good, and
+/// none is made.
 [[nodiscard]] Registration registerState(const RigidState& moved, const RigidState& onto);
 
 /// What of a state does not change under motions of the plane: seen from the body. Two states of

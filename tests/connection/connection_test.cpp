@@ -73,8 +73,8 @@ TEST_P(Connections, SimulatedFlightsComeBackAsTheyWere) {
       ASSERT_TRUE(c.made()) << describe(c.failure) << " " << c.underAt << " of " << flight.time();
       ++made;
       linear = std::max(linear, (c.departure.velocity - flight.first.after.velocity).norm());
-      angular = std::max(
-          angular, (c.departure.angularVelocity - flight.first.after.angularVelocity).norm());
+      angular = std::max(angular,
+                         (c.departure.angularVelocity - flight.first.after.angularVelocity).norm());
       EXPECT_LT(c.registration.angle, 1e-6);
       EXPECT_LT((c.arrival.velocity - c.target.velocity).norm(), 1e-6);
       EXPECT_LT((c.arrival.angularVelocity - c.target.angularVelocity).norm(), 1e-5);
