@@ -119,18 +119,20 @@ ifa::Connection join(const BodyModel& model, const Pair& pair, const ConnectionS
       pair.target, settings);
 }
 
-/// Orientation after a flight with constant angular momentum, by Runge and Kutta.
-Quaterniond flown(const Body& body, const ifa::RigidState& start, double duration) {
+/// Orientation after a flight with constant angular momentum, by Runge and Kutta. The moments are
+/// the model's: it takes two that differ by less than 1e-6 for equal, as the Nut's do, and a flight
+/// of many turns shows even that.
+Quaterniond flown(const BodyModel& model, const ifa::RigidState& start, double duration) {
+  const Vector3d moments(model.inertia.x, model.inertia.y, model.inertia.z);
   const Eigen::Matrix3d axes(start.orientation);
-  const Vector3d momentum =
-      axes * body.principalMoments.asDiagonal() * axes.transpose() * start.angularVelocity;
+  const Vector3d momentum = axes * moments.asDiagonal() * axes.transpose() * start.angularVelocity;
   const auto rate = [&](const Eigen::Vector4d& c) -> Eigen::Vector4d {
     const Quaterniond q = Quaterniond(c).normalized();
-    const Vector3d w = q * (q.conjugate() * momentum).cwiseQuotient(body.principalMoments).eval();
+    const Vector3d w = q * (q.conjugate() * momentum).cwiseQuotient(moments).eval();
     return 0.5 * (Quaterniond(0, w.x(), w.y(), w.z()) * q).coeffs();
   };
   Eigen::Vector4d q = start.orientation.coeffs();
-  const int steps = static_cast<int>(duration / 1e-4) + 1;
+  const int steps = static_cast<int>(duration * start.angularVelocity.norm() / 0.005) + 1;
   const double h = duration / steps;
   for (int i = 0; i < steps; ++i) {
     const Eigen::Vector4d a = rate(q), b = rate(q + h / 2 * a), c = rate(q + h / 2 * b),
@@ -169,7 +171,7 @@ Figures measure(const Body& body, const BodyModel& model, const std::vector<Pair
     figures.steps.push_back(c.steps);
     figures.worstAngle =
         std::max(figures.worstAngle,
-                 angle(flown(body, c.departure, c.time.flightTime), c.target.orientation));
+                 angle(flown(model, c.departure, c.time.flightTime), c.target.orientation));
     if (!c.made()) continue;
     const ifa::RigidState& own = pair.source->first.after;
     figures.leaving.push_back(bendOf(pair.source->first, c.departure.velocity - own.velocity,
