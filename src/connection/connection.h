@@ -40,7 +40,7 @@ struct ConnectionSettings {
   double largestWarp = 0.3;  ///< T_eval of eq. 5 must stay below; 5.3.2
   double depth = 1e-4;       ///< m the body may sink in flight; Body::tolerance() where it is known
 
-  /// Everything as 5.3.2 has it.
+  /// As 5.3.2 has it, but for exact slopes.
   [[nodiscard]] static ConnectionSettings printed();
 };
 
@@ -84,8 +84,8 @@ struct Connection {
 };
 
 /// Connects the ends so that contact k comes `target` seconds (T*) after contact i is left. Thread
-/// safe; some ten microseconds to some hundred, so leave it until a path is chosen (5.5, lazy
-/// blends).
+/// safe; microseconds to some hundred, more where Newton fails, so leave it until a path is chosen
+/// (5.5, lazy blends).
 [[nodiscard]] Connection connect(const BodyModel& model, const ConnectionEnds& ends, double target,
                                  const ConnectionSettings& settings = {});
 
