@@ -22,4 +22,18 @@ inline double portableLog(double x) {
   return 2 * s * sum + exponent * 0.69314718055994531;
 }
 
+/// Angle of the point (x, y) with x, y >= 0, not both 0, from the x axis: 0 to pi / 2 rad, good to
+/// a few units in the last place. The angle is halved twice, then a series.
+inline double portableAngle(double y, double x) {
+  const bool steep = y > x;
+  const double t = steep ? x / y : y / x;
+  const double half = t / (1 + std::sqrt(1 + t * t));
+  const double quarter = half / (1 + std::sqrt(1 + half * half));  // at most tan(pi / 16)
+  const double q2 = quarter * quarter;
+  double sum = 0;
+  for (int k = 23; k >= 1; k -= 2) sum = 1.0 / k - sum * q2;
+  const double angle = 4 * quarter * sum;
+  return steep ? 1.5707963267948966 - angle : angle;
+}
+
 }  // namespace ifa
