@@ -106,7 +106,8 @@ TEST_F(Sync, WritesTheFormatsThatAreAskedFor) {
   EXPECT_FALSE(fs::exists(folder_ / "out/motion.glb"));
   EXPECT_NE(readText(folder_ / "out/motion.usda").find("@./sound.wav@"), std::string::npos);
   // What an earlier run left and this one did not make would belong to another motion.
-  ASSERT_EQ(runProgram(command("out", {"--formats", "glb"})).exit, 0);
+  ASSERT_EQ(runProgram(command("out", {"--formats", "glb", "--glb-set"})).exit, 0);
+  EXPECT_NE(readText(folder_ / "out/motion.glb").find("KHR_lights_punctual"), std::string::npos);
   EXPECT_FALSE(fs::exists(folder_ / "out/motion.csv"));
   EXPECT_FALSE(fs::exists(folder_ / "out/motion.usda"));
 }

@@ -43,5 +43,24 @@ TEST(FindSounds, SaysThatThereIsNone) {
   EXPECT_FALSE(findSounds(folder / "missing"));
 }
 
+TEST(SynchronizeAll, DoesAgainWhatLacksAFileThatIsAskedFor) {
+  const test::TemporaryFolder folder;
+  test::writeText(folder / "a.signature.json", R"({"format": "inverse-foley-signature",
+      "version": 1, "terminal": false,
+      "events": [{"time": 0, "duration": 0, "amplitude": 1, "centroid": 0, "weight": 1}]})");
+  SynchronizeSettings settings;
+  settings.object = "Eraser";
+  const auto items = findSounds(folder.path()).value();
+  const auto outcome = [&](const OutputSettings& output) {
+    return synchronizeAll(items, settings, folder / "out", output, {}, nullptr).front().outcome;
+  };
+  OutputSettings output{{OutputFormat::kJson}, {}, false};
+  EXPECT_EQ(outcome(output), BatchOutcome::kSolved);
+  EXPECT_EQ(outcome(output), BatchOutcome::kSkipped);
+  output.formats.insert(OutputFormat::kGlb);
+  EXPECT_EQ(outcome(output), BatchOutcome::kSolved);
+  EXPECT_EQ(outcome(output), BatchOutcome::kSkipped);
+}
+
 }  // namespace
 }  // namespace ifa

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+
 #include "body/object_file.h"
 #include "support/temporary_folder.h"
 
@@ -88,6 +90,51 @@ TEST(WriteTakes, NumbersThemEvenWhenThereIsOnlyOne) {
   ASSERT_TRUE(writeTakes(folder.path(), {motion}, true, body, heard, {{}, {}, false}, {}));
   EXPECT_THAT(folder.names(), Contains("take-1/motion.json"));
   EXPECT_THAT(folder.names(), Not(Contains("motion.json")));
+}
+
+class WriteFilmOfTake : public testing::Test {
+ protected:
+  WriteFilmOfTake() {
+    motion_ = motionFrom(-0.5);
+    motion_.object = {"d6", "d6.obj", "desk", body_.mass, 0.5, 0.3};
+    for (MotionSample& sample : motion_.trajectory) sample.position.z() = 0.008;
+    placeInSound(motion_, heard_);
+    output_.formats = {OutputFormat::kMp4};
+    output_.film.width = output_.film.height = 64;
+    output_.film.framesPerSecond = 10;
+  }
+
+  const test::TemporaryFolder folder_;
+  const Body body_ = loadObject("d6").value();
+  const Heard heard_ = heardAt(0.2);
+  Motion motion_;
+  OutputSettings output_;
+};
+
+TEST_F(WriteFilmOfTake, LiesBesideTheMotionAndInTheManifest) {
+  if (!filmsCanBeWritten()) GTEST_SKIP() << "built without libav";
+  const auto told = writeTakes(folder_.path(), {motion_}, false, body_, heard_, output_, {});
+  ASSERT_TRUE(told) << told.error().text();
+  EXPECT_THAT(*told, testing::IsEmpty());
+  EXPECT_THAT(folder_.names(), Contains("motion.mp4"));
+  EXPECT_THAT(test::readText(folder_ / "manifest.json"), testing::HasSubstr("\"film\""));
+}
+
+TEST_F(WriteFilmOfTake, IsLeftOutWhenInterruptedAndTheRestIsKept) {
+  if (!filmsCanBeWritten()) GTEST_SKIP() << "built without libav";
+  const std::atomic<bool> stop{true};
+  Progress progress;
+  progress.stop = &stop;
+  ASSERT_TRUE(writeTakes(folder_.path(), {motion_}, false, body_, heard_, output_, progress));
+  EXPECT_THAT(folder_.names(), Contains("motion.json"));
+  EXPECT_THAT(folder_.names(), Not(Contains("motion.mp4")));
+}
+
+TEST_F(WriteFilmOfTake, OptionsOutOfRangeAreToldBeforeTheSearch) {
+  output_.film.framesPerSecond = 0;
+  const auto checked = checkOutput(output_);
+  ASSERT_FALSE(checked);
+  EXPECT_EQ(checked.error().code, ErrorCode::kUsage);
 }
 
 TEST(RefuseToOverwrite, LooksAtFilesAndNotAtNames) {
