@@ -160,8 +160,9 @@ TEST_F(OwnMesh, MakesAnObjectThatCanBeSynchronised) {
   const std::vector<Click> clicks = {{0.2, 0.9}, {0.35, 0.6}, {0.45, 0.4}};
   writeClicks(folder_ / "a.wav", clicks, 0.8);
   writeClickLabels(folder_ / "a.txt", clicks, 0.08);
-  const auto synced = runProgram({"sync", folder_ / "a.wav", "--labels", folder_ / "a.txt",
-                                  "--object", folder_ / "thing.json", "-o", folder_ / "out"});
+  const auto synced =
+      runProgram({"sync", folder_ / "a.wav", "--labels", folder_ / "a.txt", "--object",
+                  folder_ / "thing.json", "-o", folder_ / "out", "--formats", "json"});
   EXPECT_EQ(synced.exit, 0) << synced.err;
   const auto motion = nlohmann::json::parse(readText(folder_ / "out/motion.json"));
   EXPECT_EQ(motion.at("object").at("name"), "thing");

@@ -3,11 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <csignal>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
 
+#include "ifa/film.h"
 #include "run_program.h"
 #include "support/clicks.h"
 #include "support/temporary_folder.h"
@@ -37,6 +39,9 @@ class Sync : public testing::Test {
     std::vector<std::string> words = {
         "sync", folder_ / "throw.wav", "--labels", folder_ / "throw.txt", "--object", object_,
         "-o",   folder_ / out};
+    // A film takes a while; one test sees that there is one by default.
+    const bool hasFormats = std::find(more.begin(), more.end(), "--formats") != more.end();
+    if (!withFilm_ && !hasFormats) words.insert(words.end(), {"--formats", "json,glb"});
     words.insert(words.end(), more.begin(), more.end());
     return words;
   }
@@ -45,6 +50,7 @@ class Sync : public testing::Test {
   }
   TemporaryFolder folder_;
   std::string object_ = "Eraser";
+  bool withFilm_ = false;
 };
 
 TEST_F(Sync, PutsEveryContactOnTheSound) {
@@ -62,12 +68,14 @@ TEST_F(Sync, PutsEveryContactOnTheSound) {
 }
 
 TEST_F(Sync, WritesAFolderThatStandsAlone) {
+  withFilm_ = true;
   ASSERT_EQ(runProgram(command("out")).exit, 0);
   const auto found = motion("out");
   for (const char* name :
        {"motion.json", "motion.glb", "sound.wav", "timeline.svg", "Eraser.json"}) {
     EXPECT_GT(fs::file_size(folder_ / "out" / name), 0U) << name;
   }
+  EXPECT_EQ(fs::exists(folder_ / "out/motion.mp4"), filmsCanBeWritten());
   EXPECT_TRUE(fs::exists(folder_ / "out" / found.at("object").at("mesh").get<std::string>()));
   // Silence was put in front, so that the motion begins within the sound.
   const double begin = found.at("trajectory").at("time").front().get<double>();
