@@ -181,8 +181,8 @@ struct Contact {
   /// velocity. Large where a body rolls, or where contacts follow each other too fast.
   [[nodiscard]] double blur() const { return residual / std::max(before - after, 1e-9); }
   /// Two pictures fix a parabola of known acceleration; three more tell whether it was one flight.
-  /// @param step  pictures in 1/80 s of the motion: the scatter allowed is 0.9 ms of it
-  [[nodiscard]] bool isTimed(int step) const { return pictures >= 5 && blur() < 0.07 * step; }
+  /// @param step  pictures in 1/80 s of the motion: the scatter allowed is 0.6 ms of it
+  [[nodiscard]] bool isTimed(int step) const { return pictures >= 5 && blur() < 0.05 * step; }
 };
 
 class Path {
