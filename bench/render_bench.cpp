@@ -146,6 +146,7 @@ Case makeCase(const std::string& object) {
   made.settings.width = kWidth;
   made.settings.height = kHeight;
   made.settings.samplesPerPixel = kSamples;
+  made.settings.camera = ifa::CameraKind::kFixed;
   return made;
 }
 
