@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 namespace ifa {
@@ -17,5 +18,16 @@ struct Image {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgb;
 };
+
+/// Copies `picture` into `whole`, its upper left corner at (left, top); it must fit.
+inline void paste(const Image& picture, Image& whole, int left, int top) {
+  const std::size_t bytes = 3 * static_cast<std::size_t>(picture.width);
+  const std::size_t stride = 3 * static_cast<std::size_t>(whole.width);
+  std::uint8_t* to = whole.rgb.data() + static_cast<std::size_t>(top) * stride +
+                     3 * static_cast<std::size_t>(left);
+  for (std::size_t row = 0; row < static_cast<std::size_t>(picture.height); ++row) {
+    std::memcpy(to + row * stride, picture.rgb.data() + row * bytes, bytes);
+  }
+}
 
 }  // namespace ifa

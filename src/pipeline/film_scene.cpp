@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "render/canvas.h"
 
@@ -47,16 +46,6 @@ Actor actorOf(const FilmPart& part, double start) {
   actor.motion = std::shared_ptr<const Motion>(std::shared_ptr<const Motion>(), part.motion);
   actor.start = start;
   return actor;
-}
-
-void paste(const Image& picture, Image& whole, int left) {
-  const std::size_t bytes = 3 * static_cast<std::size_t>(picture.width);
-  for (int y = 0; y < picture.height; ++y) {
-    const auto row = static_cast<std::size_t>(y);
-    std::memcpy(whole.rgb.data() + 3 * (row * static_cast<std::size_t>(whole.width) +
-                                        static_cast<std::size_t>(left)),
-                picture.rgb.data() + row * bytes, bytes);
-  }
 }
 
 tl::unexpected<Error> usage(const char* place, std::string remedy) {
@@ -128,7 +117,7 @@ double FilmScene::timeOf(std::size_t frame) const {
 Image FilmScene::picture(double time) const {
   if (views_.size() == 1) return views_.front().renderer->render(time);
   Image whole(options_.width, options_.height);
-  for (const View& view : views_) paste(view.renderer->render(time), whole, view.left);
+  for (const View& view : views_) paste(view.renderer->render(time), whole, view.left, 0);
   nameViews(whole);
   return whole;
 }

@@ -29,6 +29,28 @@ void fromWords(const std::uint32_t* words, std::uint8_t* rgb, int count) {
   }
 }
 
+/// The words of a surface's row.
+std::uint32_t* wordsOf(cairo_surface_t* surface, int row) {
+  return reinterpret_cast<std::uint32_t*>(cairo_image_surface_get_data(surface) +
+                                          std::ptrdiff_t{row} *
+                                              cairo_image_surface_get_stride(surface));
+}
+
+std::size_t offsetOf(const Image& image, int row) {
+  return 3 * static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width);
+}
+
+/// A new surface that shows rows `top` to `top + rows` of the picture.
+cairo_surface_t* surfaceOf(const Image& image, int top, int rows) {
+  cairo_surface_t* surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, image.width, rows);
+  cairo_surface_flush(surface);
+  for (int y = 0; y < rows; ++y) {
+    toWords(image.rgb.data() + offsetOf(image, top + y), wordsOf(surface, y), image.width);
+  }
+  cairo_surface_mark_dirty(surface);
+  return surface;
+}
+
 }  // namespace
 
 /// Part of a picture in Cairo's hands.
@@ -36,11 +58,8 @@ struct Canvas::Surface {
   Surface(const Image& image, int firstRow, int rows)
       : top(firstRow),
         height(rows),
-        surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, image.width, rows)),
+        surface(surfaceOf(image, firstRow, rows)),
         context(cairo_create(surface)) {
-    cairo_surface_flush(surface);
-    for (int y = 0; y < height; ++y) toWords(row(image, y), words(y), image.width);
-    cairo_surface_mark_dirty(surface);
     cairo_translate(context, 0, -top);
     cairo_select_font_face(context, kTypeface, CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
   }
@@ -51,21 +70,10 @@ struct Canvas::Surface {
   Surface(const Surface&) = delete;
   Surface& operator=(const Surface&) = delete;
 
-  [[nodiscard]] std::uint32_t* words(int y) const {
-    return reinterpret_cast<std::uint32_t*>(cairo_image_surface_get_data(surface) +
-                                            std::ptrdiff_t{y} *
-                                                cairo_image_surface_get_stride(surface));
-  }
-  [[nodiscard]] std::size_t offset(const Image& image, int y) const {
-    return 3 * static_cast<std::size_t>(top + y) * static_cast<std::size_t>(image.width);
-  }
-  [[nodiscard]] const std::uint8_t* row(const Image& image, int y) const {
-    return image.rgb.data() + offset(image, y);
-  }
   void copyTo(Image& image) const {
     cairo_surface_flush(surface);
     for (int y = 0; y < height; ++y) {
-      fromWords(words(y), image.rgb.data() + offset(image, y), image.width);
+      fromWords(wordsOf(surface, y), image.rgb.data() + offsetOf(image, top + y), image.width);
     }
   }
   void use(const Paint& paint) const {
@@ -123,18 +131,7 @@ double Canvas::textWidth(double size, const std::string& text) {
 }
 
 Result<void> writePng(const std::filesystem::path& path, const Image& image) {
-  cairo_surface_t* surface =
-      cairo_image_surface_create(CAIRO_FORMAT_RGB24, image.width, image.height);
-  cairo_surface_flush(surface);
-  for (int y = 0; y < image.height; ++y) {
-    auto* words = reinterpret_cast<std::uint32_t*>(cairo_image_surface_get_data(surface) +
-                                                   std::ptrdiff_t{y} *
-                                                       cairo_image_surface_get_stride(surface));
-    toWords(
-        image.rgb.data() + 3 * static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width),
-        words, image.width);
-  }
-  cairo_surface_mark_dirty(surface);
+  cairo_surface_t* surface = surfaceOf(image, 0, image.height);
   std::string bytes;
   const auto append = [](void* to, const unsigned char* data, unsigned int length) {
     static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(data), length);

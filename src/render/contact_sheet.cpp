@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "render/canvas.h"
 
@@ -13,16 +12,6 @@ namespace {
 constexpr Paint kGround{0.11, 0.11, 0.12, 1};
 constexpr Paint kLetters{0.9, 0.9, 0.9, 1};
 constexpr int kGap = 8;
-
-void paste(const Image& picture, Image& sheet, int left, int top) {
-  const std::size_t bytes = 3 * static_cast<std::size_t>(picture.width);
-  for (int y = 0; y < picture.height; ++y) {
-    const auto from = static_cast<std::size_t>(y) * bytes;
-    const auto to = 3 * (static_cast<std::size_t>(top + y) * static_cast<std::size_t>(sheet.width) +
-                         static_cast<std::size_t>(left));
-    std::memcpy(sheet.rgb.data() + to, picture.rgb.data() + from, bytes);
-  }
-}
 
 }  // namespace
 

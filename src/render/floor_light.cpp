@@ -34,18 +34,16 @@ FloorGrid<T> gridAround(float x, float y, float reach, float step) {
   return grid;
 }
 
-/// Calls `use(from, to, index, stride, count)` for each line of the grid along the given side.
-template <class T, class Filter>
-void alongRows(FloorGrid<T>& grid, const Filter& filter) {
-  for (int row = 0; row < grid.rows; ++row) filter(row * grid.columns, 1, grid.columns);
-}
-template <class T, class Filter>
-void alongColumns(FloorGrid<T>& grid, const Filter& filter) {
-  for (int column = 0; column < grid.columns; ++column) filter(column, grid.columns, grid.rows);
+/// Calls `filter(first, stride, count)` for each row of a grid, then for each column: where its
+/// points are among all, and how many they are.
+template <class Filter>
+void alongBothSides(int columns, int rows, const Filter& filter) {
+  for (int row = 0; row < rows; ++row) filter(row * columns, 1, columns);
+  for (int column = 0; column < columns; ++column) filter(column, columns, rows);
 }
 
 /// Sums over a window of `kSearch` points to each side, along both sides.
-void spread(FloorGrid<float>& shape, std::vector<Blockers>& blockers) {
+void spread(int columns, int rows, std::vector<Blockers>& blockers) {
   std::vector<Blockers> line;
   const auto filter = [&](int first, int stride, int count) {
     line.assign(static_cast<std::size_t>(count), {});
@@ -60,8 +58,7 @@ void spread(FloorGrid<float>& shape, std::vector<Blockers>& blockers) {
       blockers[static_cast<std::size_t>(first + i * stride)] = line[static_cast<std::size_t>(i)];
     }
   };
-  alongRows(shape, filter);
-  alongColumns(shape, filter);
+  alongBothSides(columns, rows, filter);
 }
 
 /// Tent filter whose half-width, in points, differs from place to place; along one side, then the
@@ -88,28 +85,22 @@ void blur(FloorGrid<T>& grid, const std::vector<float>& widths, const T& zero) {
       grid.values[static_cast<std::size_t>(first + i * stride)] = line[static_cast<std::size_t>(i)];
     }
   };
-  alongRows(grid, filter);
-  alongColumns(grid, filter);
+  alongBothSides(grid.columns, grid.rows, filter);
 }
 
-/// Filter widths in points for a penumbra that is `slope` times as wide as the blocker is far.
-std::vector<float> widthsFor(std::vector<Blockers> blockers, FloorGrid<float> shape, float slope,
-                             float step) {
-  spread(shape, blockers);
+/// Filter widths in the grid's points for a penumbra that is `slope` times as wide as the blocker
+/// is far.
+template <class T>
+std::vector<float> widthsFor(std::vector<Blockers> blockers, const FloorGrid<T>& grid,
+                             float slope) {
+  spread(grid.columns, grid.rows, blockers);
   std::vector<float> widths;
   widths.reserve(blockers.size());
   for (const Blockers& b : blockers) {
     const float distance = b.inverse > 0 ? b.hits / b.inverse : 0;
-    widths.push_back(std::min(slope * distance / step, static_cast<float>(kWidestFilter)));
+    widths.push_back(std::min(slope * distance / grid.step, static_cast<float>(kWidestFilter)));
   }
   return widths;
-}
-
-FloorGrid<float> shapeOf(int columns, int rows) {
-  FloorGrid<float> shape;
-  shape.columns = columns;
-  shape.rows = rows;
-  return shape;
 }
 
 }  // namespace
@@ -165,9 +156,7 @@ void FloorLight::lightKey(const ActorMoment& actor, const Studio& studio,
       key_.values[index] = 1 - shaded / std::max(light, 1e-6f);
     }
   }
-  blur(key_,
-       widthsFor(std::move(blockers), shapeOf(key_.columns, key_.rows), 0.7f * softness, key_.step),
-       0.0f);
+  blur(key_, widthsFor(std::move(blockers), key_, 0.7f * softness), 0.0f);
 }
 
 void FloorLight::lightAmbient(const ActorMoment& actor, const Studio& studio,
@@ -208,10 +197,7 @@ void FloorLight::lightAmbient(const ActorMoment& actor, const Studio& studio,
           kPi / static_cast<float>(count) * (1 - smoothStep(kFadeFrom, 1, away));
     }
   }
-  blur(ambient_,
-       widthsFor(std::move(blockers), shapeOf(ambient_.columns, ambient_.rows), kAmbientWidth,
-                 ambient_.step),
-       Colour(Colour::Zero()));
+  blur(ambient_, widthsFor(std::move(blockers), ambient_, kAmbientWidth), Colour(Colour::Zero()));
 }
 
 Colour roughRadiance(const SurfaceHit& hit, const Vector& towardsEye, const Studio& studio) {

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <csignal>
 #include <nlohmann/json.hpp>
 
@@ -37,14 +36,7 @@ class Render : public testing::Test {
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
-  std::vector<std::string> outputs() const {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(folder_.path())) {
-      if (entry.path().filename() != "one") names.push_back(entry.path().filename().string());
-    }
-    std::sort(names.begin(), names.end());
-    return names;
-  }
+  std::vector<std::string> outputs() const { return namesBeside(folder_.path(), "one"); }
   TemporaryFolder folder_;
 };
 

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -36,14 +35,7 @@ class RenderMotions : public testing::Test {
     options_.camera = CameraKind::kFixed;
   }
   /// The names in the test's folder, without those of the motion itself.
-  std::vector<std::string> outputs() const {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(folder_.path())) {
-      if (entry.path().filename() != "one") names.push_back(entry.path().filename().string());
-    }
-    std::sort(names.begin(), names.end());
-    return names;
-  }
+  std::vector<std::string> outputs() const { return test::namesBeside(folder_.path(), "one"); }
   std::vector<std::string> warnings(const std::string& output) {
     const auto told = renderMotions({folder_ / "one"}, folder_ / output, options_);
     EXPECT_TRUE(told) << told.error().text();

@@ -3,6 +3,7 @@
 // PkgConfig::SNDFILE.
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -38,6 +39,17 @@ inline void writeMotionFolder(const std::filesystem::path& folder, const Motion&
   writeClicks(folder / "sound.wav", clicks, soundSeconds);
   const auto written = writeMotionJson(folder / "motion.json", motion);
   if (!written) throw std::runtime_error(written.error().text());
+}
+
+/// Names in a folder, in order, without `except` (a motion's own folder).
+inline std::vector<std::string> namesBeside(const std::filesystem::path& folder,
+                                            const std::string& except) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().filename() != except) names.push_back(entry.path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 }  // namespace ifa::test
