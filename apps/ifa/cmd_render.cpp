@@ -28,7 +28,8 @@ const std::map<std::string, CameraKind>& cameraNames() {
   static const std::map<std::string, CameraKind> kNames = {{"auto", CameraKind::kAuto},
                                                            {"fixed", CameraKind::kFixed},
                                                            {"follow", CameraKind::kFollow},
-                                                           {"close-up", CameraKind::kCloseUp}};
+                                                           {"close-up", CameraKind::kCloseUp},
+                                                           {"low", CameraKind::kLow}};
   return kNames;
 }
 
@@ -80,7 +81,8 @@ void addRenderCommand(CLI::App& app, CommandContext& context) {
       ->capture_default_str();
   command
       ->add_option("--camera", options->camera,
-                   "auto, fixed, follow or close-up (default: auto, for contact sheets close-up)")
+                   "auto, fixed, follow, close-up or low (default: auto, for contact sheets "
+                   "close-up)")
       ->check(CLI::IsMember(cameraNames()));
   command->add_option("--speed", film.speed, "0.25: four times slower; the sound is stretched too")
       ->check(numberFrom(0.01, 4))

@@ -1,31 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// check_film WIDTH HEIGHT FPS SPEED SAMPLES: finds contacts in a film's decoded pictures (yuv444p
-// on the standard input) and onsets in its decoded sound (file SAMPLES: float, mono, 48 kHz), and
-// compares them: each contact that rebounds more than 3 pixels has an onset within half a frame of
-// 60 a second. It knows nothing of motions and shares no code with the program that made the film.
+// check_film WIDTH HEIGHT FPS SPEED LEAST SAMPLES: finds contacts in a film's decoded pictures
+// (yuv444p on the standard input) and onsets in its decoded sound (file SAMPLES: float, mono, 48
+// kHz), and compares them: every contact that rebounds more than 3 pixels, and there are at least
+// LEAST, has an onset of its own within half a frame of 60 a second, in the motion's time. It knows
+// nothing of motions and shares no code with the program that made the film.
 //
-// A contact is a kink: the body's row in the picture falls, then at once rises. The camera stands
-// still and looks down, so the row tells of height and depth together; but in flight both change as
-// those of a thrown body do, and the row's acceleration is constant but for the mild perspective.
-// Only an impact makes the velocity jump, whichever of the two it is in. The instant between two
-// pictures is where the parabolas before and after meet. A bounce is compared when the pictures
-// tell it: five of flight on either side that lie on the parabolas. Neither rolling nor contacts
-// that follow within four pictures have that; slow motion and more frames a second show more of
-// them.
+// The film is one of `--camera low`: the eye is at the floor, so that all of the floor is seen in
+// one row, the horizon, and rows above it tell how high the lowest point of the outline is, however
+// far the body. A body that touches the floor touches the horizon; one that rolls, rocks or slides
+// stays there, and only one that bounces leaves it.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <iostream>
 #include <iterator>
-#include <numeric>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace {
@@ -33,18 +26,8 @@ namespace {
 constexpr double kSampleRate = 48000;
 constexpr double kLeastRebound = 3;      // pixels: what the eye sees as a bounce
 constexpr double kHalfFrame = 0.5 / 60;  // s
-
-// ---- Pictures ----
-
-struct Frame {
-  int width = 0, height = 0;
-  std::vector<std::uint8_t> planes;  // Y, U, V
-
-  [[nodiscard]] std::size_t pixels() const { return planes.size() / 3; }
-  [[nodiscard]] int luma(std::size_t i) const { return planes[i]; }
-  [[nodiscard]] int u(std::size_t i) const { return planes[pixels() + i] - 128; }
-  [[nodiscard]] int v(std::size_t i) const { return planes[2 * pixels() + i] - 128; }
-};
+constexpr double kMergeGap = 0.01;       // s: touches that are closer are one contact
+constexpr double kMoved = 0.02;          // s: what must be noticed when the sound comes off so much
 
 double medianOf(std::vector<double> values) {
   if (values.empty()) return 0;
@@ -53,269 +36,137 @@ double medianOf(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
 }
 
-/// The picture without the body: each value's median over frames in which the body falls and stays
-/// nowhere.
-Frame backgroundOf(const std::vector<Frame>& frames) {
-  Frame background = frames.front();
-  std::vector<std::uint8_t> values(frames.size());
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  for (std::size_t i = 0; i < background.planes.size(); ++i) {
-    for (std::size_t k = 0; k < frames.size(); ++k) values[k] = frames[k].planes[i];
+// ---- Pictures ----
+
+struct Picture {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> planes;  // Y, U, V
+
+  [[nodiscard]] const std::uint8_t* row(int plane, int y) const {
+    return planes.data() + static_cast<std::ptrdiff_t>(plane * height + y) * width;
+  }
+  /// The row's colour where no body is: the backdrop is the same all along it.
+  [[nodiscard]] int backdrop(int plane, int y) const {
+    std::vector<std::uint8_t> values(row(plane, y), row(plane, y) + width);
+    const auto middle = values.begin() + width / 2;
     std::nth_element(values.begin(), middle, values.end());
-    background.planes[i] = *middle;
+    return *middle;
   }
-  return background;
-}
-
-/// True where something hides the floor: it is brighter, or its chroma is not that of the floor in
-/// less light, as a shadow's is.
-std::vector<bool> maskOf(const Frame& frame, const Frame& background) {
-  constexpr double kNoise = 7;  // of 255: what encoding leaves
-  std::vector<bool> mask(frame.pixels());
-  for (std::size_t i = 0; i < mask.size(); ++i) {
-    const double luma = frame.luma(i) - 16, floor = std::max(background.luma(i) - 16, 1);
-    const double light = luma / floor, brighter = std::max(luma - floor, 0.0);
-    const double apart = std::abs(frame.u(i) - light * background.u(i)) +
-                         std::abs(frame.v(i) - light * background.v(i));
-    mask[i] = apart + 0.4 * brighter > kNoise;
-  }
-  return mask;
-}
-
-/// A connected piece of the mask.
-struct Piece {
-  double area = 0, row = 0;  // filled from left to right; its centroid's row
-  bool cut = false;          // reaches the picture's edge
 };
 
-/// First and last column of a piece on one row.
-struct Span {
-  double left = 1e9, right = -1;
-};
-
-/// Pixels of the piece around `start`, which are taken out of the mask.
-std::vector<int> takePixels(std::vector<bool>& mask, int width, int start) {
-  std::vector<int> pixels = {start};
-  const int count = static_cast<int>(mask.size());
-  mask[static_cast<std::size_t>(start)] = false;
-  for (std::size_t next = 0; next < pixels.size(); ++next) {
-    const int i = pixels[next];
-    for (const int other : {i - 1, i + 1, i - width, i + width}) {
-      if (other < 0 || other >= count || !mask[static_cast<std::size_t>(other)]) continue;
-      mask[static_cast<std::size_t>(other)] = false;
-      pixels.push_back(other);
-    }
+/// First row of the floor: where the backdrop ends.
+int horizonOf(const Picture& picture) {
+  int horizon = 0, most = 0;
+  for (int y = picture.height / 2; y + 1 < picture.height; ++y) {
+    const int jump = std::abs(picture.backdrop(0, y + 1) - picture.backdrop(0, y));
+    if (jump <= most) continue;
+    most = jump;
+    horizon = y + 1;
   }
-  return pixels;
+  return horizon;
 }
 
-/// Filled from left to right, so that neither pips nor print leave holes.
-Piece pieceOf(const std::vector<int>& pixels, int width, int height) {
-  std::vector<Span> spans(static_cast<std::size_t>(height));
-  for (const int i : pixels) {
-    Span& span = spans[static_cast<std::size_t>(i / width)];
-    span.left = std::min(span.left, i % width + 0.0);
-    span.right = std::max(span.right, i % width + 0.0);
+/// True when something other than the backdrop is seen in the row.
+bool holdsBody(const Picture& picture, int y) {
+  constexpr int kNoise = 20;       // of 3 * 255: more than what encoding leaves
+  constexpr int kLeastPixels = 2;  // a corner that points down is about as wide
+  std::vector<int> apart(static_cast<std::size_t>(picture.width));
+  for (int plane = 0; plane < 3; ++plane) {
+    const int backdrop = picture.backdrop(plane, y);
+    const std::uint8_t* row = picture.row(plane, y);
+    for (std::size_t x = 0; x < apart.size(); ++x) apart[x] += std::abs(row[x] - backdrop);
   }
-  Piece piece;
-  double moment = 0;
-  for (int y = 0; y < height; ++y) {
-    const Span& span = spans[static_cast<std::size_t>(y)];
-    if (span.right < 0) continue;
-    const double length = span.right - span.left + 1;
-    piece.area += length;
-    moment += length * y;
-    piece.cut |= span.left == 0 || span.right == width - 1 || y == 0 || y == height - 1;
+  return std::count_if(apart.begin(), apart.end(), [](int a) { return a > kNoise; }) >=
+         kLeastPixels;
+}
+
+/// Height of the outline's lowest row over the horizon, if there is a body.
+std::optional<int> heightIn(const Picture& picture, int horizon) {
+  for (int y = horizon - 1; y >= 0; --y) {
+    if (holdsBody(picture, y)) return horizon - 1 - y;
   }
-  piece.row = moment / piece.area;
-  return piece;
+  return {};
 }
 
-/// Row of the body's centroid, if all of it is in the picture.
-std::optional<double> bodyRow(const Frame& frame, const Frame& background) {
-  constexpr std::size_t kLeastPixels = 25;
-  std::vector<bool> mask = maskOf(frame, background);
-  std::vector<int> most;
-  for (std::size_t i = 0; i < mask.size(); ++i) {
-    if (!mask[i]) continue;
-    auto pixels = takePixels(mask, frame.width, static_cast<int>(i));
-    if (pixels.size() > most.size()) most = std::move(pixels);
+/// Heights by frame number, from the standard input.
+std::vector<std::optional<int>> readHeights(int width, int height) {
+  Picture picture{width, height, {}};
+  picture.planes.resize(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  std::vector<std::optional<int>> heights;
+  int horizon = 0;
+  while (std::fread(picture.planes.data(), 1, picture.planes.size(), stdin) ==
+         picture.planes.size()) {
+    if (heights.empty()) horizon = horizonOf(picture);
+    heights.push_back(heightIn(picture, horizon));
   }
-  if (most.size() < kLeastPixels) return {};
-  const Piece body = pieceOf(most, frame.width, frame.height);
-  if (body.cut) return {};
-  return body.row;
+  return heights;
 }
 
-bool read(Frame& frame) {
-  return std::fread(frame.planes.data(), 1, frame.planes.size(), stdin) == frame.planes.size();
-}
-
-/// Rows by frame number, from the standard input.
-std::vector<std::optional<double>> readRows(int width, int height) {
-  constexpr std::size_t kBackgroundFrames = 25;
-  Frame frame{width, height, {}};
-  frame.planes.resize(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  std::vector<Frame> first;
-  while (first.size() < kBackgroundFrames && read(frame)) first.push_back(frame);
-  if (first.empty()) return {};
-  const Frame background = backgroundOf(first);
-  std::vector<std::optional<double>> rows;
-  for (const Frame& early : first) rows.push_back(bodyRow(early, background));
-  while (read(frame)) rows.push_back(bodyRow(frame, background));
-  return rows;
-}
 // ---- Contacts ----
 
-/// A kink. Times are frames, velocities rows per frame, downwards positive.
+/// The body at the floor. Numbers of pictures.
 struct Contact {
-  double frame = 0;              // of the impact, between pictures
-  double row = 0;                // there
-  double before = 0, after = 0;  // velocities
-  double rebound = 0;            // rows from the impact up to the highest picture that follows
-  double residual = 1e9;         // of the fit, rows
-  int pictures = 0;              // that the flight before or after has, whichever has fewer
-
-  [[nodiscard]] bool isBounce() const { return before > 0 && after < 0 && rebound > kLeastRebound; }
-  /// How well the pictures tell the instant, frames: the scatter about two flights over the jump of
-  /// velocity. Large where a body rolls, or where contacts follow each other too fast.
-  [[nodiscard]] double blur() const { return residual / std::max(before - after, 1e-9); }
-  /// Two pictures fix a parabola of known acceleration; three more tell whether it was one flight.
-  /// @param step  pictures in 1/80 s of the motion: the scatter allowed is 0.6 ms of it
-  [[nodiscard]] bool isTimed(int step) const { return pictures >= 5 && blur() < 0.05 * step; }
+  int first = 0, last = 0;
+  int rebound = 0;  // pixels: how high the lowest point is before the next contact
 };
 
 class Path {
  public:
-  /// @param step  distance of pictures that are compared: more in slow motion, where neighbours
-  ///   differ by less than what a body's turning moves its outline
-  Path(std::vector<std::optional<double>> rows, int step) : rows_(std::move(rows)), step_(step) {
-    for (int k = 0; k < count(); ++k) bends_.push_back(bendAt(k));
-    gravity_ = findGravity();
-  }
+  explicit Path(std::vector<std::optional<int>> heights) : heights_(std::move(heights)) {}
 
-  [[nodiscard]] double gravity() const { return gravity_; }
-
-  /// All kinks, whatever their rebound.
-  [[nodiscard]] std::vector<Contact> contacts() const {
+  /// Touches that are less than the merge gap apart are one contact.
+  /// @param gap  pictures
+  [[nodiscard]] std::vector<Contact> contacts(double gap) const {
     std::vector<Contact> found;
-    for (int k = 0; k < count(); ++k) {
-      if (isKink(k)) found.push_back({k + 0.0});
+    for (int k = 1; k < count(); ++k) {
+      const int last = endOfLevel(k);
+      if (!isTouch(k, last)) continue;
+      const int first = firstWithinAPixel(k);
+      if (found.empty() || first - found.back().last >= gap) found.push_back({first});
+      found.back().last = k = last;
     }
-    for (int pass = 0; pass < 3; ++pass) {
-      const std::vector<Contact> last = found;
-      for (std::size_t i = 0; i < found.size(); ++i) {
-        const double low = i > 0 ? last[i - 1].frame : -1;
-        const double high = i + 1 < last.size() ? last[i + 1].frame : count();
-        if (const auto fitted = fit(last[i].frame, low, high)) found[i] = *fitted;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const int next = i + 1 < found.size() ? found[i + 1].first : count();
+      for (int k = found[i].first; k < next; ++k) {
+        found[i].rebound = std::max(found[i].rebound, height(k).value_or(0));
       }
     }
     return found;
   }
 
+  /// True when the body is seen in every picture from k on and ends on the horizon.
+  [[nodiscard]] bool staysFrom(int k) const {
+    return heights_.back().value_or(2) <= 1 &&
+           std::all_of(heights_.begin() + k, heights_.end(), [](auto h) { return h.has_value(); });
+  }
+
  private:
-  [[nodiscard]] int count() const { return static_cast<int>(rows_.size()); }
-  [[nodiscard]] std::optional<double> row(int k) const {
-    return k < 0 || k >= count() ? std::nullopt : rows_[static_cast<std::size_t>(k)];
+  [[nodiscard]] int count() const { return static_cast<int>(heights_.size()); }
+  [[nodiscard]] std::optional<int> height(int k) const {
+    return k < 0 || k >= count() ? std::nullopt : heights_[static_cast<std::size_t>(k)];
   }
-  [[nodiscard]] std::optional<double> bend(int k) const {
-    return k < 0 || k >= count() ? std::nullopt : bends_[static_cast<std::size_t>(k)];
+  /// Last picture of those from k on that are as high as k.
+  [[nodiscard]] int endOfLevel(int k) const {
+    while (k + 1 < count() && height(k + 1) == height(k)) ++k;
+    return k;
   }
-  /// Change of velocity around picture k, rows per frame^2.
-  [[nodiscard]] std::optional<double> bendAt(int k) const {
-    const auto before = row(k - step_), here = row(k), after = row(k + step_);
-    if (!before || !here || !after) return {};
-    return (*after - 2 * *here + *before) / (step_ * step_);
+  /// What touches the floor between two pictures falls and rises in straight lines that meet there,
+  /// at most half a picture away from the lower one: that is then at most a quarter as high as its
+  /// two neighbours together. A corner that swings past in flight makes a round valley instead.
+  [[nodiscard]] bool isTouch(int first, int last) const {
+    const auto before = height(first - 1), here = height(first), after = height(last + 1);
+    if (!before || !here || *before <= *here) return false;
+    if (!after) return last + 1 == count() && *here <= 1;  // it lies there in the end
+    return *after > *here && *before + *after >= 4 * *here;
   }
-
-  /// Acceleration of flight, rows per frame^2: in the inner of flights, over pictures that move.
-  [[nodiscard]] double findGravity() const {
-    std::vector<double> inner;
-    for (int k = 0; k < count(); ++k) {
-      const auto before = bend(k - step_), here = bend(k), after = bend(k + step_);
-      if (!before || !here || !after || std::min({*before, *here, *after}) <= 0) continue;
-      if (*here * step_ * step_ > 1) inner.push_back(*here);
-    }
-    return medianOf(inner);
-  }
-
-  [[nodiscard]] bool isKink(int k) const {
-    const auto here = bend(k);
-    // The velocity jumps by more than what 3 rows of rebound need, seen half a step away.
-    if (!here || *here > gravity_ - 0.4 * std::sqrt(2 * gravity_ * kLeastRebound) / step_) {
-      return false;
-    }
-    for (int other = k - step_; other <= k + step_; ++other) {
-      const auto bent = bend(other);
-      if (other != k && bent && (*bent < *here || (*bent == *here && other < k))) return false;
-    }
-    return *here < 0;
+  /// First of the pictures up to k that are lower than a pixel and a half over it.
+  [[nodiscard]] int firstWithinAPixel(int k) const {
+    const int here = height(k).value_or(0);
+    while (height(k - 1).value_or(here + 2) <= here + 1) --k;
+    return k;
   }
 
-  /// Two parabolas of gravity's acceleration that meet, for pictures between two other contacts.
-  [[nodiscard]] std::optional<Contact> fit(double near, double low, double high) const {
-    constexpr double kGrid = 0.02;
-    std::optional<Contact> best;
-    const double reach = 6 * step_;
-    const int first = static_cast<int>(std::floor(std::max(low, near - reach))) + 1;
-    const int last = static_cast<int>(std::ceil(std::min(high, near + reach))) - 1;
-    for (double at = near - step_; at <= near + step_; at += kGrid) {
-      const auto contact = fitAt(at, first, last);
-      if (contact && (!best || contact->residual < best->residual)) best = contact;
-    }
-    if (!best) return {};
-    best->rebound = reboundAfter(best->frame, high);
-    return best;
-  }
-
-  /// From the lower of the two pictures around an impact to the highest before the next one, rows.
-  [[nodiscard]] double reboundAfter(double frame, double next) const {
-    const int k = static_cast<int>(std::floor(frame));
-    double lowest = std::max(row(k).value_or(0), row(k + 1).value_or(0)), highest = lowest;
-    for (int later = k + 1; later < next; ++later) {
-      highest = std::min(highest, row(later).value_or(highest));
-    }
-    return lowest - highest;
-  }
-
-  /// Least squares for row and velocities at a given instant.
-  [[nodiscard]] std::optional<Contact> fitAt(double at, int first, int last) const {
-    std::array<std::array<double, 4>, 3> normal{};
-    int before = 0, after = 0;
-    double squares = 0;
-    for (int k = first; k <= last; ++k) {
-      if (!row(k)) continue;
-      const double t = k - at, y = *row(k) - gravity_ * t * t / 2;
-      const std::array<double, 4> terms = {1, std::min(t, 0.0), std::max(t, 0.0), y};
-      for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t j = 0; j < 4; ++j) normal[i][j] += terms[i] * terms[j];
-      }
-      squares += y * y;
-      ++(t < 0 ? before : after);
-    }
-    if (before < 2 || after < 2) return {};
-    const auto right = normal;
-    const auto solution = solve(normal);
-    for (std::size_t i = 0; i < 3; ++i) squares -= solution[i] * right[i][3];
-    const double residual = std::sqrt(std::max(squares, 0.0) / (before + after));
-    return Contact{at, solution[0], solution[1], solution[2], 0, residual, std::min(before, after)};
-  }
-
-  static std::array<double, 3> solve(std::array<std::array<double, 4>, 3> m) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t other = 0; other < 3; ++other) {
-        if (other == i) continue;
-        const double factor = m[other][i] / m[i][i];
-        for (std::size_t j = i; j < 4; ++j) m[other][j] -= factor * m[i][j];
-      }
-    }
-    return {m[0][3] / m[0][0], m[1][3] / m[1][1], m[2][3] / m[2][2]};
-  }
-
-  std::vector<std::optional<double>> rows_;
-  int step_;
-  std::vector<std::optional<double>> bends_;
-  double gravity_ = 0;
+  std::vector<std::optional<int>> heights_;
 };
 
 // ---- Sound ----
@@ -362,19 +213,8 @@ std::vector<double> onsetsOf(const std::vector<float>& samples) {
 struct Film {
   int width = 0, height = 0;
   double framesPerSecond = 0, speed = 0;
+  std::size_t least = 1;  // bounces that are expected at least
 };
-
-/// Share of the film's busy time, from its first onset to its last, in which any instant has an
-/// onset within half a frame: how much agreement would be chance.
-double chanceOf(const std::vector<double>& onsets, double half) {
-  if (onsets.size() < 2) return 0;
-  double covered = 0, last = onsets.front();
-  for (const double onset : onsets) {
-    covered += std::min(onset + half, onsets.back()) - std::max(onset - half, last);
-    last = onset + half;
-  }
-  return covered / (onsets.back() - onsets.front());
-}
 
 double nearest(const std::vector<double>& onsets, double time) {
   return *std::min_element(onsets.begin(), onsets.end(), [&](double a, double b) {
@@ -382,29 +222,61 @@ double nearest(const std::vector<double>& onsets, double time) {
   });
 }
 
-/// Prints the table; true when every bounce that pictures can time is heard within half a frame.
-bool compare(const std::vector<Contact>& contacts, const std::vector<double>& onsets,
-             const Film& film, int step) {
-  const double half = kHalfFrame;
-  std::vector<double> apart;
-  std::size_t bounces = 0;
-  std::printf("  frame  instant s  onset s  apart ms  rebound px   blur\n");
+/// A contact that rebounds, beside the onset that is nearest to its first picture.
+struct Bounce {
+  Contact contact;
+  double time = 0, onset = 0;  // s of the film
+  double apart = 0;            // s of the motion; positive: the onset is late
+  bool shared = false;         // the bounce before has the same onset
+
+  [[nodiscard]] bool isHeard() const { return std::abs(apart) <= kHalfFrame && !shared; }
+};
+
+/// @param late  s of the motion by which the sound is moved
+std::vector<Bounce> bouncesOf(const std::vector<Contact>& contacts,
+                              const std::vector<double>& onsets, const Film& film, double late) {
+  std::vector<Bounce> bounces;
   for (const Contact& contact : contacts) {
-    bounces += contact.isBounce();
-    if (!contact.isBounce() || !contact.isTimed(step)) continue;
-    const double time = contact.frame / film.framesPerSecond, onset = nearest(onsets, time);
-    apart.push_back(std::abs(onset - time));
-    std::printf("  %5ld  %9.4f  %7.4f  %+8.2f  %10.1f  %5.3f%s\n", std::lround(contact.frame), time,
-                onset, 1e3 * (onset - time), contact.rebound, contact.blur(),
-                apart.back() > half ? "  <- too far" : "");
+    if (contact.rebound <= kLeastRebound) continue;
+    const double time = contact.first / film.framesPerSecond, move = late / film.speed;
+    const double onset = nearest(onsets, time - move) + move;
+    const bool shared = !bounces.empty() && bounces.back().onset == onset;
+    bounces.push_back({contact, time, onset, film.speed * (onset - time), shared});
   }
+  return bounces;
+}
+
+long countUnheard(const std::vector<Bounce>& bounces) {
+  return std::count_if(bounces.begin(), bounces.end(),
+                       [](const Bounce& b) { return !b.isHeard(); });
+}
+
+void print(const std::vector<Bounce>& bounces) {
+  std::printf("  picture  instant s  onset s  apart ms  rebound px\n");
+  for (const Bounce& bounce : bounces) {
+    std::printf("  %7d  %9.4f  %7.4f  %+8.2f  %10d%s\n", bounce.contact.first, bounce.time,
+                bounce.onset, 1e3 * bounce.apart, bounce.contact.rebound,
+                bounce.isHeard() ? "" : "  <- no onset of its own");
+  }
+}
+
+/// Prints the table; true when all bounces are heard within half a frame, each by itself, and
+/// would not be if the sound came earlier or later.
+bool compare(const std::vector<Contact>& contacts, const std::vector<double>& onsets,
+             const Film& film) {
+  const auto bounces = bouncesOf(contacts, onsets, film, 0);
+  print(bounces);
+  std::vector<double> apart;
+  for (const Bounce& bounce : bounces) apart.push_back(std::abs(bounce.apart));
   const double most = apart.empty() ? 0 : *std::max_element(apart.begin(), apart.end());
-  std::printf(
-      "  %zu kinks, %zu bounces, %zu timed: at most %.2f ms apart, median %.2f "
-      "(half a frame: %.2f; %zu onsets, by chance %.0f %%)\n",
-      contacts.size(), bounces, apart.size(), 1e3 * most, 1e3 * medianOf(apart), 1e3 * half,
-      onsets.size(), 100 * chanceOf(onsets, half));
-  return !apart.empty() && most <= half;
+  const long early = countUnheard(bouncesOf(contacts, onsets, film, -kMoved));
+  const long late = countUnheard(bouncesOf(contacts, onsets, film, kMoved));
+  std::printf("  %zu contacts, %zu bounces, all compared: at most %.2f ms apart, median %.2f\n",
+              contacts.size(), bounces.size(), 1e3 * most, 1e3 * medianOf(apart));
+  std::printf("  %zu onsets; had the sound come %.0f ms earlier, %ld would differ, later %ld\n",
+              onsets.size(), 1e3 * kMoved, early, late);
+  if (bounces.size() < film.least) std::printf("  fewer bounces than %zu\n", film.least);
+  return bounces.size() >= film.least && countUnheard(bounces) == 0 && early > 0 && late > 0;
 }
 
 int fail(const char* why) {
@@ -415,22 +287,22 @@ int fail(const char* why) {
 }  // namespace
 
 int main(int count, char** words) {
-  if (count != 6) return fail("give WIDTH HEIGHT FPS SPEED SAMPLES, and pictures on the input");
+  if (count != 7) return fail("give WIDTH HEIGHT FPS SPEED LEAST SAMPLES, pictures on the input");
   const Film film{std::atoi(words[1]), std::atoi(words[2]), std::atof(words[3]),
-                  std::atof(words[4])};
-  if (film.width < 16 || film.height < 16 || film.framesPerSecond <= 0 || film.speed <= 0) {
-    return fail("a size, rate or speed is not one");
+                  std::atof(words[4]), std::strtoul(words[5], nullptr, 10)};
+  if (film.width < 16 || film.height < 16 || film.framesPerSecond <= 0 || film.speed <= 0 ||
+      film.least < 1) {
+    return fail("a size, rate, speed or number is not one");
   }
-  const auto onsets = onsetsOf(readSamples(words[5]));
+  const auto onsets = onsetsOf(readSamples(words[6]));
   if (onsets.empty()) return fail("no onset in the sound");
-  const auto rows = readRows(film.width, film.height);
-  constexpr double kStepsPerSecond = 80;  // of the motion
-  const int step = std::max(
-      1, static_cast<int>(std::lround(film.framesPerSecond / film.speed / kStepsPerSecond)));
-  const Path path(rows, step);
-  if (path.gravity() <= 0) return fail("nothing flies in the pictures");
-  if (!compare(path.contacts(), onsets, film, step)) {
-    return fail("picture and sound do not agree, or nothing bounces");
+  const Path path(readHeights(film.width, film.height));
+  const auto contacts = path.contacts(kMergeGap * film.framesPerSecond / film.speed);
+  if (contacts.empty() || !path.staysFrom(contacts.front().first)) {
+    return fail("the body leaves the picture, or does not rest on the horizon in the end");
+  }
+  if (!compare(contacts, onsets, film)) {
+    return fail("picture and sound do not agree, or too little bounces");
   }
   return 0;
 }

@@ -18,6 +18,7 @@ enum class CameraKind {
   kFixed,    ///< stands still and frames the whole motion
   kFollow,   ///< goes with the object
   kCloseUp,  ///< the same from nearby
+  kLow,      ///< stands still with its eye at the floor, which is seen edge-on: heights are plain
 };
 
 /// What a film looks like. The defaults are those of `ifa render`.

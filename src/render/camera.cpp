@@ -9,8 +9,11 @@ namespace {
 
 constexpr float kElevation = 0.5f;    // rad above the floor
 constexpr float kHalfHeight = 0.21f;  // tangent of half the angle of view: a short tele lens
-// The floor must fill the picture: the upper edge looks down too.
+// The floor must fill the picture, unless the eye is low: the upper edge looks down too.
 static_assert(kElevation > kHalfHeight + 0.1f);
+// Height of a low eye as a share of its distance. The floor around the body is within half a pixel
+// of the horizon, yet each ray that goes down has a place on the floor.
+constexpr float kLowEye = 2e-4f;
 constexpr double kLeadIn = 0.04;        // s before the first contact that are framed
 constexpr double kBallStep = 1 / 60.0;  // s
 constexpr double kKnotStep = 1 / 30.0;  // s
@@ -78,17 +81,21 @@ bool Camera::operator==(const Camera& other) const {
 
 CameraPath::CameraPath(CameraKind kind, const std::vector<Actor>& actors, int width, int height,
                        const FrameMargins& margins)
-    : width_(width), height_(height) {
+    : isLow_(kind == CameraKind::kLow),
+      // A low camera looks up until the horizon is at the margin.
+      elevation_(isLow_ ? -std::atan(kHalfHeight * (1 - 2 * margins.bottom)) : kElevation),
+      width_(width),
+      height_(height) {
   chooseAzimuth(actors);
   gather(actors);
-  const bool isNear = kind == CameraKind::kFixed || kind == CameraKind::kCloseUp;
+  const bool isNear = kind == CameraKind::kFixed || kind == CameraKind::kCloseUp || isLow_;
   leastDistance_ = largest_ / ((isNear ? kLargest : kLargestFromAfar) * kHalfHeight);
   const double infinite = std::numeric_limits<double>::infinity();
   const Knot whole = frame(-infinite, infinite, margins);
   middle_ = {whole.target.x(), whole.target.y(), 0};
   extent_ = whole.distance * kHalfHeight * static_cast<float>(width) / static_cast<float>(height);
   const float share = largest_ / (kHalfHeight * whole.distance);
-  if (kind == CameraKind::kFixed || (kind == CameraKind::kAuto && share >= kSmallest)) {
+  if (kind == CameraKind::kFixed || isLow_ || (kind == CameraKind::kAuto && share >= kSmallest)) {
     knots_ = {whole};
     return;
   }
@@ -157,7 +164,7 @@ CameraPath::Knot CameraPath::frame(double from, double to, const FrameMargins& m
   knot.distance = leastDistance_;
   for (int round = 0; round < 24; ++round) {
     Eigen::Array2f low = Eigen::Array2f::Constant(1e9f), high = -low;
-    float depth = 0;
+    float depth = 0, nearest = 0;
     int count = 0;
     const auto include = [&](const Vector& centre, float radius) {
       const Vector d = centre - knot.target;
@@ -166,6 +173,7 @@ CameraPath::Knot CameraPath::frame(double from, double to, const FrameMargins& m
       low = low.min(place - radius / z);
       high = high.max(place + radius / z);
       depth += z;
+      nearest = std::max(nearest, radius - d.dot(axes.forward));
       ++count;
     };
     for (const Ball& ball : balls_) {
@@ -175,12 +183,19 @@ CameraPath::Knot CameraPath::frame(double from, double to, const FrameMargins& m
       include({ball.centre.x(), ball.centre.y(), 0}, 0.6f * ball.radius);
     }
     depth /= static_cast<float>(count);
+    if (isLow_) low.y() = bottom;  // the horizon: bodies reach below it as balls only
     const Eigen::Array2f middle = 0.5f * (low + high);
     const Eigen::Array2f wanted(0.5f * (left + right), 0.5f * (top + bottom));
-    knot.target += ((middle - wanted).x() * axes.right + (middle - wanted).y() * axes.up) * depth;
+    // A low camera's height is not free.
+    const float upwards = isLow_ ? 0 : (middle - wanted).y();
+    knot.target += ((middle - wanted).x() * axes.right + upwards * axes.up) * depth;
     const float scale =
         std::max((high - low).x() / (right - left), (high - low).y() / (top - bottom));
     knot.distance = std::max(leastDistance_, knot.distance * (0.4f + 0.6f * scale));
+    if (isLow_) {
+      knot.distance = std::max(knot.distance, 1.25f * nearest);  // bodies stay before the eye
+      knot.target.z() = knot.distance * (kLowEye + axes.forward.z());
+    }
   }
   return knot;
 }
@@ -227,7 +242,7 @@ Camera CameraPath::cameraOf(const Knot& knot) const {
   camera.width = width_;
   camera.height = height_;
   const float c = std::cos(azimuth_), s = std::sin(azimuth_);
-  camera.forward = {c * std::cos(kElevation), s * std::cos(kElevation), -std::sin(kElevation)};
+  camera.forward = {c * std::cos(elevation_), s * std::cos(elevation_), -std::sin(elevation_)};
   camera.right = {s, -c, 0};
   camera.up = camera.right.cross(camera.forward);
   camera.eye = knot.target - knot.distance * camera.forward;

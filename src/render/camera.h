@@ -9,7 +9,7 @@
 
 namespace ifa::render {
 
-/// A pinhole camera that looks down at the floor; no roll.
+/// A pinhole camera; no roll.
 struct Camera {
   Vector eye = Vector::Zero(), right = Vector::UnitX(), up = Vector::UnitZ(),
          forward = Vector::UnitY();
@@ -66,6 +66,8 @@ class CameraPath {
   void keepInView(const FrameMargins& margins);
   [[nodiscard]] Camera cameraOf(const Knot& knot) const;
 
+  const bool isLow_;
+  float elevation_;  ///< rad above the floor, seen from what is framed; negative: it looks up
   int width_, height_;
   float azimuth_ = 0, extent_ = 0.1f, leastDistance_ = 0.1f;
   float largest_ = 0;  ///< radius of the largest body, m

@@ -17,6 +17,12 @@ constexpr float kAskew = 0.16f;  // rad
 // Over so wide a blur the texture is its mean.
 constexpr float kMeanFrom = 0.1f;  // m
 
+/// What is seen above the horizon: a wall far behind, brightest below, so that the lower side of a
+/// body, which little light reaches, stands out from it.
+Colour backdrop(const Vector& view) {
+  return Colour(0.62f, 0.64f, 0.70f) * std::max(1 - 2 * view.z(), 0.0f);
+}
+
 }  // namespace
 
 FloorView::FloorView(const std::string& surface, const CameraPath& path)
@@ -42,12 +48,14 @@ Eigen::Vector2f FloorView::alongGrain(const Eigen::Vector2f& v) const {
 
 FloorPoint FloorView::point(const Camera& camera, int x, int y) const {
   const Ray ray = camera.through(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+  FloorPoint point;
+  point.above = ray.direction.z() >= 0;
+  if (point.above) return point;
   const float distance = -ray.origin.z() / ray.direction.z();
   const Vector place = ray.origin + distance * ray.direction;
   const float across = camera.pixelAt(distance * ray.direction.dot(camera.forward));
   const Eigen::Vector2f along = across / -ray.direction.z() * ray.direction.head<2>().normalized();
   const Eigen::Vector2f uv = alongGrain(place.head<2>());
-  FloorPoint point;
   point.albedo = texture_.at(uv.x(), uv.y(), across, alongGrain(along));
   point.x = place.x();
   point.y = place.y();
@@ -69,6 +77,7 @@ std::vector<FloorPoint> FloorView::layer(const Camera& camera) const {
 
 Colour FloorView::lit(const FloorPoint& point, const Vector& view,
                       const std::vector<FloorLight>& lights) const {
+  if (point.above) return backdrop(view);
   float key = 1;
   Colour sky = studio_.skyOnFloor();
   for (const FloorLight& light : lights) {

@@ -12,12 +12,13 @@
 
 namespace ifa::render {
 
-/// What a pixel shows of the floor, before light.
+/// What a pixel shows of the floor, before light; or that it looks above it.
 struct FloorPoint {
   Colour albedo = Colour::Zero();
   float x = 0, y = 0;  ///< m
   float pool = 1;      ///< share of the light that falls this far from the middle
   float mirrored = 0;  ///< share of the sky that the floor reflects towards the eye
+  bool above = false;  ///< no floor is seen, but the backdrop above the horizon
 };
 
 /// Immutable, so that any number of threads may use it.

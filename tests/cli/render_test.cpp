@@ -76,6 +76,8 @@ TEST_F(Render, WritesASequenceAndAStill) {
   ASSERT_EQ(render("still.png", {"--floor", "carpet", "--at", "0.5"}).exit, 0);
   const Image still = readPng(folder_ / "still.png");
   EXPECT_EQ(still.rgb, readPng(folder_ / "pictures/frame-00005.png").rgb);
+  ASSERT_EQ(render("low.png", {"--floor", "carpet", "--at", "0.5", "--camera", "low"}).exit, 0);
+  EXPECT_NE(still.rgb, readPng(folder_ / "low.png").rgb);
 }
 
 TEST_F(Render, ShowsTwoMotionsSideBySide) {

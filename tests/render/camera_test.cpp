@@ -96,6 +96,33 @@ TEST_P(Framing, CamerasThatFollowLoseNoContact) {
   }
 }
 
+TEST_P(Framing, LowCameraSeesTheFloorInOneRowAndTheWholeMotionAboveIt) {
+  const Actor thrown = actor();
+  const FrameMargins margins;
+  const CameraPath still = path(CameraKind::kLow, {thrown}, width(), height(), margins);
+  EXPECT_TRUE(still.isFixed());
+  const Camera camera = still.at(0);
+  EXPECT_GT(camera.eye.z(), 0);
+  const auto w = static_cast<float>(width()), h = static_cast<float>(height());
+  const float horizon = (1 - margins.bottom) * h;
+  float left = w, right = 0, top = h;
+  overMotion(thrown, [&](double, const Vector& centre) {
+    const Vector below(centre.x(), centre.y(), 0), seen = camera.project(centre);
+    EXPECT_GE(camera.project(below).y(), horizon - 0.01f);
+    EXPECT_LT(camera.project(below).y(), horizon + 0.004f * h);
+    const float reach = thrown.geometry->radius();
+    EXPECT_GT(seen.z(), 1.2f * reach);
+    left = std::min(left, seen.x() - reach / camera.pixelAt(seen.z()));
+    right = std::max(right, seen.x() + reach / camera.pixelAt(seen.z()));
+    top = std::min(top, seen.y() - reach / camera.pixelAt(seen.z()));
+  });
+  EXPECT_GT(left, (margins.side - 0.01f) * w);
+  EXPECT_LT(right, (1 - margins.side + 0.01f) * w);
+  EXPECT_GT(top, (margins.top - 0.01f) * h);
+  const bool wide = (right - left) / w > 0.75f, tall = top / h < 0.2f;
+  EXPECT_TRUE(wide || tall) << left << ' ' << right << ' ' << top;
+}
+
 INSTANTIATE_TEST_SUITE_P(Motions, Framing,
                          testing::Values(std::make_tuple("tumbling", 320, 180),
                                          std::make_tuple("sliding", 320, 180),
@@ -133,6 +160,22 @@ TEST(Camera, HasNoRollAndKeepsItsDirections) {
                   std::remainder(way.azimuth(), 2 * kPi), 1e-4);
     }
   }
+}
+
+TEST(Camera, LowEyeStaysOutsideOfWhatComesTowardsIt) {
+  // There and back along y, far more than what is left of it in the end along x.
+  Motion motion = test::evenMotion({0, 0, 0.01}, {0, 0, 0});
+  for (MotionSample& sample : motion.trajectory) {
+    sample.position = {0.02 * sample.time, -std::sin(6.283 * sample.time), 0.01};
+  }
+  const Actor actor = test::actorOf(test::cubeOf(0.02), motion);
+  const Camera camera = path(CameraKind::kLow, {actor}).at(0);
+  overMotion(actor, [&](double, const Vector& centre) {
+    const Vector seen = camera.project(centre);
+    EXPECT_GT(seen.z(), 2 * actor.geometry->radius());
+    EXPECT_GT(seen.x(), 0);
+    EXPECT_LT(seen.x(), 320);
+  });
 }
 
 TEST(Camera, SeesTheWayFromLeftToRight) {

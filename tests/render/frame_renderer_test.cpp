@@ -322,6 +322,57 @@ TEST(FrameRenderer, AGlossyFloorMirrors) {
   EXPECT_GT(redness(0.01), 1.0);
 }
 
+/// Lowest row above `end` in which the pictures differ clearly, or -1.
+int lowestDifference(const Image& a, const Image& b, int end) {
+  for (int y = end - 1; y >= 0; --y) {
+    for (int x = 0; x < a.width; ++x) {
+      if (std::abs(brightness(a, x, y) - brightness(b, x, y)) > 12) return y;
+    }
+  }
+  return -1;
+}
+
+TEST(FrameRenderer, ALowCameraShowsHowHighTheLowestPointIs) {
+  RenderSettings settings = small();
+  settings.camera = CameraKind::kLow;
+  settings.width = 320, settings.height = 180;
+  settings.shutterSeconds = 0;
+  const Motion motion = test::evenMotion({0.03, 0.02, 0.01}, {0.05, 0, 0.1});
+  for (const auto& colour : {kGrey, kRed, std::array<double, 4>{0.9, 0.88, 0.8, 1}}) {
+    const Body cube = test::cubeOf(0.02, colour);
+    const FrameRenderer renderer({test::actorOf(cube, motion)}, settings);
+    const Image empty = FrameRenderer({test::actorOf(cube, motion, 100)}, settings).render(0);
+    const Camera camera = renderer.cameraPath().at(0);
+    const int horizon = static_cast<int>(camera.project({0.03f, 0.02f, 0}).y());
+    for (const double time : {0.0, 0.04, 0.1, 0.2, 0.4}) {
+      float lowest = 0;
+      for (const Eigen::Vector3d& vertex : cube.mesh.vertices) {
+        const Eigen::Vector3d place =
+            motion.trajectory.front().position + time * Eigen::Vector3d(0.05, 0, 0.1) + vertex;
+        lowest = std::max(lowest, camera.project(place.cast<float>()).y());
+      }
+      const int row = lowestDifference(renderer.render(time), empty, horizon);
+      EXPECT_NEAR(row + 1, std::min(lowest, static_cast<float>(horizon)), 1) << time;
+    }
+  }
+}
+
+TEST(FrameRenderer, ALowCameraSeesABackdropAndTheFloorBelowIt) {
+  RenderSettings settings = small();
+  settings.camera = CameraKind::kLow;
+  for (const char* surface : {"desk", "wood", "carpet"}) {
+    settings.surface = surface;
+    const FrameRenderer renderer({restingCube(kGrey, 100)}, settings);
+    const Image empty = renderer.render(0);
+    const float horizon = renderer.cameraPath().at(0).project({0, 0, 0}).y();
+    const int above = static_cast<int>(horizon) - 1, below = above + 3;
+    for (int x = 0; x < kWidth; ++x) {
+      EXPECT_GT(brightness(empty, x, above), brightness(empty, x, below) + 60) << surface;
+      EXPECT_LT(std::abs(brightness(empty, x, above) - brightness(empty, 0, above)), 6) << surface;
+    }
+  }
+}
+
 TEST(FrameRenderer, CamerasThatMoveDrawTheFloorAnew) {
   RenderSettings settings = small();
   settings.camera = CameraKind::kCloseUp;
