@@ -302,7 +302,7 @@ int main(int count, char** words) {
     return fail("the body leaves the picture, or does not rest on the horizon in the end");
   }
   if (!compare(contacts, onsets, film)) {
-    return fail("picture and sound do not agree, or too little bounces");
+    return fail("picture and sound do not agree, or too few bounces");
   }
   return 0;
 }
