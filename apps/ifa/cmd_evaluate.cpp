@@ -8,6 +8,7 @@
 
 #include "base/file.h"
 #include "command.h"
+#include "graph_options.h"
 #include "pipeline/evaluate.h"
 
 namespace ifa::cli {
@@ -63,7 +64,7 @@ void addOptions(CLI::App& command, EvaluateOptions& options) {
   EvaluateSettings& settings = options.settings;
   command.add_option("DIR", settings.folder, "folders named NAME or NAME@SURFACE")->required();
   command.add_option("-o,--out", options.report, "report to write: REPORT.json and REPORT.md");
-  command.add_option("--planner", settings.planner, "which planner")->capture_default_str();
+  command.add_option("--planner", settings.planner, "shoot or graph")->capture_default_str();
   command.add_option("--seed", settings.seed, "of the searches")->capture_default_str();
   command.add_option("--time-limit", settings.timeLimitSeconds, "seconds per case (0: none)")
       ->check(numberFrom(0, 1e6));
@@ -73,6 +74,7 @@ void addOptions(CLI::App& command, EvaluateOptions& options) {
   command.add_option("--limit", settings.limit, "only so many cases of each object (0: all)");
   command.add_option("--parity", options.parity, "only cases whose name ends in such a number")
       ->check(CLI::IsMember({"even", "odd"}));
+  addGraphOptions(command, settings.graph);
 }
 
 }  // namespace

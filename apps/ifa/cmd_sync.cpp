@@ -8,6 +8,7 @@
 #include <set>
 
 #include "command.h"
+#include "graph_options.h"
 #include "ifa/synchronize.h"
 #include "pipeline/batch.h"
 #include "pipeline/output_files.h"
@@ -121,7 +122,7 @@ int runSync(SyncOptions options, CommandContext& context) {
 void addSearchOptions(CLI::App& command, SyncOptions& options) {
   auto& settings = options.settings;
   command.add_option("--surface", settings.surface, "surface of the object file");
-  command.add_option("--planner", settings.planner, "shoot")->capture_default_str();
+  command.add_option("--planner", settings.planner, "shoot or graph")->capture_default_str();
   command.add_option("--takes", settings.takes, "number of different motions, best first")
       ->check(CLI::Range(1, kMaxTakes))
       ->capture_default_str();
@@ -136,6 +137,7 @@ void addSearchOptions(CLI::App& command, SyncOptions& options) {
       ->check(CLI::Range(0.0, 10.0));
   command.add_flag("--no-terminal", options.noTerminal,
                    "the last contact does not bring the object to rest");
+  addGraphOptions(command, settings.graph);
 }
 
 }  // namespace

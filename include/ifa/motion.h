@@ -58,6 +58,11 @@ struct MotionContact {
   Eigen::Vector3d impulseChange =
       Eigen::Vector3d::Zero();  ///< N s, added at the start of the arriving edge
   Eigen::Vector3d angularChange = Eigen::Vector3d::Zero();  ///< N m s, likewise
+  /// What the contact's own impulse has to make up for where the body does not arrive with the
+  /// velocities it was simulated with, N s and N m s; 0 but for connections.
+  Eigen::Vector3d arrivalImpulseChange = Eigen::Vector3d::Zero();
+  Eigen::Vector3d arrivalAngularChange = Eigen::Vector3d::Zero();
+  double arrivalBend = 0;  ///< its length, 1 = edge of plausible
 };
 
 /// Which body on which surface, as used.
@@ -98,6 +103,8 @@ struct Motion {
   double score = 0;              ///< eq. 12
   double scoreWithoutSound = 0;  ///< eq. 13
   double searchSeconds = 0;
+  /// "graph": until a motion of Score 0.3 was found, s; negative where none was. Not in the file.
+  double secondsToGoodScore = -1;
   BendSummary bend;
   double meanFv = 0;  ///< geometric mean of f_v
   std::optional<DatabaseReference> database;

@@ -20,13 +20,23 @@ namespace ifa {
 /// Most motions that can be asked for at once.
 inline constexpr int kMaxTakes = 32;
 
+/// For planner "graph" (IFA section 5, docs/branch-and-bound.md).
+struct GraphOptions {
+  std::filesystem::path database;     ///< event database of object and surface; empty: the cache's
+  std::uint64_t simulations = 40000;  ///< of the cache's database, which is made where it is not
+  bool printedVelocity = false;       ///< eq. 3 compares v_blend with v_j+, as printed, not v_i+
+  bool timeWarp = false;              ///< flights are blended, then shown at another pace (5.3.2)
+  double earlyExit = 0.3;             ///< a motion of this Score ends the search, 0 to 1
+};
+
 /// What is to be synchronised, and how. The defaults are those of `ifa sync`.
 struct SynchronizeSettings {
-  std::filesystem::path sound;   ///< sound file, or a signature in JSON
-  std::filesystem::path labels;  ///< Audacity labels; empty: the contacts are detected
-  std::string object;            ///< name in the library, or path of an object file
-  std::string surface;           ///< empty: the object's default
-  std::string planner = "shoot";
+  std::filesystem::path sound;    ///< sound file, or a signature in JSON
+  std::filesystem::path labels;   ///< Audacity labels; empty: the contacts are detected
+  std::string object;             ///< name in the library, or path of an object file
+  std::string surface;            ///< empty: the object's default
+  std::string planner = "shoot";  ///< or "graph"
+  GraphOptions graph;             ///< for "graph"
   std::filesystem::path objects;  ///< folder of the library; empty: the program's own
   std::uint64_t seed = 1;
   int takes = 1;                 ///< different motions wanted, 1 to kMaxTakes

@@ -37,7 +37,6 @@ struct Change {
   Vector3d linear, angular;
 };
 
-/// First and last sample of contact `index`'s event; null where there is no such event.
 struct EventEnds {
   const MotionSample* first = nullptr;
   const MotionSample* last = nullptr;
@@ -45,7 +44,7 @@ struct EventEnds {
 
 /// The change may press the body down again in the same instant: the event's last sample is the one
 /// right after the change, where that is seen.
-EventEnds endsOf(const Evidence& all, std::size_t index, const Change& change) {
+EventEnds endsBefore(const Evidence& all, std::size_t index, const Change& change) {
   const double leaving = all.retiming(index + 1);
   EventEnds ends;
   bool changed = false;
@@ -61,47 +60,69 @@ EventEnds endsOf(const Evidence& all, std::size_t index, const Change& change) {
   return ends;
 }
 
-/// The body's orientation where contact `index` ends; it turns by nothing within an instant.
-Eigen::Quaterniond orientationAtEnd(const Evidence& all, std::size_t index) {
-  Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
+/// First and last sample of contact `index`'s event; null where there is none.
+EventEnds endsOf(const Evidence& all, std::size_t index) {
+  EventEnds ends;
   for (const Step& step : all.steps) {
-    if (step.kind == StepKind::kEvent && step.contact == index) {
-      q = all.sample(step.from + 1).orientation;
-    }
+    if (step.kind != StepKind::kEvent || step.contact != index) continue;
+    if (ends.first == nullptr) ends.first = &all.sample(step.from);
+    ends.last = &all.sample(step.from + 1);
   }
-  return q;
+  return ends;
 }
 
-/// Bend of the change that the file says was made where contact `index` ends.
-double bendAfter(const Evidence& all, std::size_t index) {
-  const MotionContact& next = all.contact(index + 1);
-  const Eigen::Matrix3d inverse = all.body.inertia.inverse();
-  const Eigen::Quaterniond q = orientationAtEnd(all, index);
-  const Change change{next.impulseChange / all.mass,
-                      q * (inverse * (q.conjugate() * next.angularChange))};
-  const EventEnds ends = endsOf(all, index, change);
-  if (ends.first == nullptr) return 0;
-  const auto& [linear, angular] = change;
-  const double arriving = all.retiming(index), leaving = all.retiming(index + 1);
-  const Vector3d linearByContact =
-      leaving * ends.last->velocity - linear - arriving * ends.first->velocity;
-  const Vector3d angularByContact =
-      leaving * ends.last->angularVelocity - angular - arriving * ends.first->angularVelocity;
-  return std::sqrt(
-      bendSquared(linear, linearByContact, kLinearSize, 20, kSmallestChange) +
-      bendSquared(angular, angularByContact, kAngularSize, 10, kSmallestChange / all.body.radius));
+/// The changes of velocity that impulses make of a body in the orientation `q`.
+Change changeBy(const Evidence& all, const Vector3d& impulse, const Vector3d& angular,
+                const Eigen::Quaterniond& q) {
+  return {impulse / all.mass, q * (all.body.inertia.inverse() * (q.conjugate() * angular))};
+}
+
+/// Bends of the changes that the file says were made where contact `index` begins and ends.
+struct Bends {
+  double arriving = 0, leaving = 0;
+};
+
+Bends bendsOf(const Evidence& all, std::size_t index) {
+  const EventEnds whole = endsOf(all, index);
+  if (whole.first == nullptr) return {};
+  const MotionContact& contact = all.contact(index);
+  const Change came = changeBy(all, contact.arrivalImpulseChange, contact.arrivalAngularChange,
+                               whole.first->orientation);
+  Change left{Vector3d::Zero(), Vector3d::Zero()};
+  EventEnds ends = whole;
+  if (index + 1 < all.motion.contacts.size()) {
+    const MotionContact& next = all.contact(index + 1);
+    left = changeBy(all, next.impulseChange, next.angularChange, whole.last->orientation);
+    ends = endsBefore(all, index, left);
+  }
+  // The contact as it was simulated: neither change has a part in it.
+  const double before = all.retiming(index), after = all.retiming(index + 1);
+  const Vector3d linear =
+      after * ends.last->velocity - left.linear - (before * ends.first->velocity + came.linear);
+  const Vector3d angular = after * ends.last->angularVelocity - left.angular -
+                           (before * ends.first->angularVelocity + came.angular);
+  const auto bend = [&](const Change& change) {
+    return std::sqrt(
+        bendSquared(change.linear, linear, kLinearSize, 20, kSmallestChange) +
+        bendSquared(change.angular, angular, kAngularSize, 10, kSmallestChange / all.body.radius));
+  };
+  return {bend(came), bend(left)};
 }
 
 }  // namespace
 
 void checkBend(const Evidence& all, Checks& checks) {
   Worst bend, understated;
+  double found = 0;  // of the change that leads to this contact
   for (std::size_t i = 0; i < all.motion.contacts.size(); ++i) {
     const MotionContact& contact = all.contact(i);
-    const double found = i > 0 ? bendAfter(all, i - 1) : 0;
     const std::string name = "contact " + std::to_string(i + 1);
-    bend.see(std::max(contact.bend, found), contact.time, name);
-    understated.see(found - contact.bend, contact.time, name);
+    const Bends bends = bendsOf(all, i);
+    bend.see(std::max({contact.bend, found, contact.arrivalBend, bends.arriving}), contact.time,
+             name);
+    understated.see(std::max(found - contact.bend, bends.arriving - contact.arrivalBend),
+                    contact.time, name);
+    found = bends.leaving;
   }
   checks.push_back(bend.check("bend", "", all.motion.bend.cap));
   checks.push_back(understated.check("bend understated", "", kRounding));

@@ -25,7 +25,7 @@ struct ShootingSettings {
   double tolerance = 1e-10;  ///< rad, angle missed that counts as none
   /// rad, |change of spin| T of a step at most; 10 degrees as printed. Wider steps converge more
   /// often (docs/connections.md).
-  double largestTurn = 0.174532925;
+  double largestTurn = 0.52359877559829887;
   int mostSteps = 60;  ///< Decision: then it is taken not to converge; of each try
 };
 

@@ -12,6 +12,8 @@ namespace ifa {
 
 namespace {
 
+constexpr double kPrintedTurn = 0.17453292519943295;  // rad, 10 degrees
+
 /// Free flight, not looking at the ground.
 RigidState flown(const BodyModel& model, const RigidState& start, double duration) {
   KernelState<double> end = kernelState(start, 0);
@@ -71,9 +73,9 @@ bool shoot(const BodyModel& model, const RigidState& source, const ConnectionSet
 ConnectionSettings ConnectionSettings::printed() {
   ConnectionSettings settings;
   settings.kind = ConnectionKind::kBlend;
-  settings.registerAt = RegisterAt::kDeparture;
   settings.guess = ShootingGuess::kMeanMomentum;
   settings.shooting.step = ShootingStep::kSquaredAngle;
+  settings.shooting.largestTurn = kPrintedTurn;
   settings.shooting.tolerance = 1e-6;
   return settings;
 }

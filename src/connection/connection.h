@@ -34,7 +34,7 @@ enum class ShootingGuess {
 
 struct ConnectionSettings {
   ConnectionKind kind = ConnectionKind::kExact;
-  RegisterAt registerAt = RegisterAt::kArrival;
+  RegisterAt registerAt = RegisterAt::kDeparture;
   ShootingGuess guess = ShootingGuess::kSource;
   ShootingSettings shooting;
   double largestWarp = 0.3;  ///< T_eval of eq. 5 must stay below; 5.3.2

@@ -90,6 +90,10 @@ MotionContact readContact(const JsonNode& node) {
   contact.position = node.member("position").vector();
   contact.impulseChange = node.member("impulse_change").vector();
   contact.angularChange = node.member("angular_change").vector();
+  if (!node.has("arrival_bend")) return contact;
+  contact.arrivalImpulseChange = node.member("arrival_impulse_change").vector();
+  contact.arrivalAngularChange = node.member("arrival_angular_change").vector();
+  contact.arrivalBend = positive("arrival_bend");
   return contact;
 }
 

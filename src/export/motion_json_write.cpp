@@ -124,6 +124,11 @@ void appendContact(Text& out, const MotionContact& contact) {
   out.field("centroid", contact.centroid).field("target_centroid", contact.targetCentroid);
   out.field("end", contact.end).field("restitution", contact.restitution);
   out.field("position", contact.position).field("impulse_change", contact.impulseChange);
+  if (contact.arrivalBend > 0) {
+    out.field("arrival_impulse_change", contact.arrivalImpulseChange);
+    out.field("arrival_angular_change", contact.arrivalAngularChange);
+    out.field("arrival_bend", contact.arrivalBend);
+  }
   out.field("angular_change", contact.angularChange, "}");
 }
 

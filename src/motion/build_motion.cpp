@@ -22,6 +22,14 @@ bool sameState(const RigidState& a, const RigidState& b) {
          a.velocity == b.velocity && a.angularVelocity == b.angularVelocity;
 }
 
+/// State in which the body arrives: as simulated, less what the contact makes up for.
+RigidState arrivalOf(const PlannedContact& contact) {
+  RigidState state = contact.event.before;
+  state.velocity -= contact.arrivalChange;
+  state.angularVelocity -= contact.arrivalAngularChange;
+  return state;
+}
+
 /// State that leaves a contact: as simulated, plus the planned change.
 RigidState departureOf(const PlannedContact& contact) {
   RigidState state = contact.event.after;
@@ -60,6 +68,7 @@ class Builder {
   /// Backward flight: forward with negated velocities (5.1), to an earlier contact or the
   /// pre-roll's start.
   void before(double preRoll) {
+    writer_.place(plan_.contacts[0].placement);
     KernelState<double> back = kernelState(plan_.contacts[0].event.before, 0);
     back.velocity = back.velocity * -1.0;
     back.w = back.w * -1.0;
@@ -94,7 +103,8 @@ class Builder {
   Result<void> event(std::size_t k) {
     const PlannedContact& contact = plan_.contacts[k];
     const KernelState<double> start = kernelState(contact.event.before, 0);
-    writer_.sample(start, startOf(k));
+    writer_.place(contact.placement);
+    writer_.sample(kernelState(arrivalOf(contact), 0), startOf(k), contact.retiming);
     stepper_.start(start, contact.restitution);
     const bool met = writer_.run(stepper_, startOf(k), contact.event.end + 1, false,
                                  [&](const Stepper& s, Advance did) {
@@ -111,9 +121,9 @@ class Builder {
     const KernelState<double> start = kernelState(departure, 0);
     const PlannedContact& next = plan_.contacts[k + 1];
     const double duration = startOf(k + 1) - endOf(k);
-    writer_.sample(start, endOf(k));
+    writer_.sample(start, endOf(k), next.retiming);
     if (next.arrival == Arrival::kFlight) {
-      writer_.flight(start, endOf(k), duration);
+      writer_.flight(start, endOf(k), duration, next.retiming);
       return {};
     }
     stepper_.start(start);
@@ -157,22 +167,37 @@ class Builder {
     c.centroid = c.duration > 0 ? planned.event.centroid : 0;
     c.terminal = planned.event.terminal;
     c.arrival = planned.arrival;
-    c.source.kind = k == 0 ? SourceKind::kSampled : SourceKind::kShot;
+    c.source = planned.source;
     c.factors = planned.factors;
+    c.retiming = planned.retiming;
     c.bend = planned.bend;
+    c.arrivalBend = planned.arrivalBend;
     c.restitution = planned.restitution;
-    c.position = planned.event.before.position;
+    c.position = planned.placement.apply(planned.event.before).position;
+    arrivalChange(planned, c);
     if (k > 0) change(plan_.contacts[k - 1], c);
     return c;
   }
 
+  /// The moments of inertia along the world's axes.
+  [[nodiscard]] Eigen::Matrix3d inertiaAt(const Eigen::Quaterniond& orientation) const {
+    const Eigen::Matrix3d axes = orientation.toRotationMatrix();
+    return axes * request_.body->principalMoments.asDiagonal() * axes.transpose();
+  }
+
+  void arrivalChange(const PlannedContact& planned, MotionContact& c) const {
+    const Eigen::Quaterniond turn = planned.placement.turn();
+    const Eigen::Matrix3d inertia = inertiaAt(planned.event.before.orientation);
+    c.arrivalImpulseChange = turn * (request_.body->mass * planned.arrivalChange);
+    c.arrivalAngularChange = turn * (inertia * planned.arrivalAngularChange);
+  }
+
   /// The impulse and angular impulse that were added where the edge to this contact begins.
   void change(const PlannedContact& from, MotionContact& c) const {
-    const Eigen::Matrix3d axes = from.event.after.orientation.toRotationMatrix();
-    const Eigen::Matrix3d inertia =
-        axes * request_.body->principalMoments.asDiagonal() * axes.transpose();
-    c.impulseChange = request_.body->mass * from.velocityChange;
-    c.angularChange = inertia * from.angularVelocityChange;
+    const Eigen::Quaterniond turn = from.placement.turn();
+    const Eigen::Matrix3d inertia = inertiaAt(from.event.after.orientation);
+    c.impulseChange = turn * (request_.body->mass * from.velocityChange);
+    c.angularChange = turn * (inertia * from.angularVelocityChange);
   }
 
   const PlanRequest& request_;
@@ -194,11 +219,12 @@ Result<Motion> buildMotion(const PlanRequest& request, const Plan& plan, double 
   motion.success = plan.solved;
   motion.failure = plan.failure;
   motion.timeLimitReached = plan.timeLimitReached;
+  motion.secondsToGoodScore = plan.secondsToGoodScore;
   motion.energyGain = request.settings.energyGain;
   motion.score = plan.score;
   motion.scoreWithoutSound = plan.scoreWithoutSound;
   motion.meanFv = plan.meanFv;
-  motion.bend = {plan.bendMedian, plan.bendMax, request.settings.bendCap};
+  motion.bend = {plan.bendMedian, plan.bendMax, plan.bendCap};
   if (plan.contacts.empty()) return motion;
   Builder builder(request, plan, motion);
   builder.contacts();

@@ -19,8 +19,8 @@ TrajectoryWriter::TrajectoryWriter(const Body& body, const BodyModel& model, Mot
       motion_(motion),
       principalFromBody_(Eigen::Matrix3d(body.bodyFromPrincipal.transpose())) {}
 
-void TrajectoryWriter::sample(const KernelState<double>& state, double time) {
-  const RigidState rigid = rigidState(state);
+void TrajectoryWriter::sample(const KernelState<double>& state, double time, double stretch) {
+  const RigidState rigid = placement_.apply(rigidState(state));
   MotionSample sample;
   sample.time = time;
   sample.position = rigid.position;
@@ -29,8 +29,8 @@ void TrajectoryWriter::sample(const KernelState<double>& state, double time) {
       motion_.trajectory.back().orientation.dot(sample.orientation) < 0) {
     sample.orientation.coeffs() = -sample.orientation.coeffs();
   }
-  sample.velocity = rigid.velocity;
-  sample.angularVelocity = rigid.angularVelocity;
+  sample.velocity = rigid.velocity / stretch;
+  sample.angularVelocity = rigid.angularVelocity / stretch;
   motion_.trajectory.push_back(sample);
 }
 
@@ -42,24 +42,26 @@ void TrajectoryWriter::sampleAtRest(const KernelState<double>& state, double tim
 
 /// Samples on the grid of multiples of `step` in the motion's time.
 void TrajectoryWriter::inside(const KernelState<double>& departure, double time, double duration,
-                              double step) {
+                              double step, double stretch) {
   KernelState<double> base = departure;
   base.time = 0;
+  const double flown = duration / stretch;
   auto next = static_cast<long>(std::floor((time + kApart) / step)) + 1;
-  while (base.time < duration) {
-    const FlightSegment segment(model_, base, duration - base.time);
+  while (base.time < flown) {
+    const FlightSegment segment(model_, base, flown - base.time);
     const double end = base.time + segment.length();
     for (;; ++next) {
       const double at = static_cast<double>(next) * step - time;
-      if (at > end || at > duration - kApart) break;
-      sample(segment.at(at - base.time), time + at);
+      if (at / stretch > end || at > duration - kApart) break;
+      sample(segment.at(at / stretch - base.time), time + at, stretch);
     }
     base = segment.at(segment.length());
   }
 }
 
-void TrajectoryWriter::flight(const KernelState<double>& departure, double time, double duration) {
-  inside(departure, time, duration, kFlightStep);
+void TrajectoryWriter::flight(const KernelState<double>& departure, double time, double duration,
+                              double stretch) {
+  inside(departure, time, duration, kFlightStep, stretch);
 }
 
 void TrajectoryWriter::listSilent(double begin, double end) {

@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "connection/registration.h"
 #include "dynamics/stepper.h"
 #include "ifa/motion.h"
 
@@ -14,13 +15,16 @@ class TrajectoryWriter {
  public:
   TrajectoryWriter(const Body& body, const BodyModel& model, Motion& motion);
 
-  /// A state exactly as it is.
-  void sample(const KernelState<double>& state, double time);
+  /// From now on states are seen from a frame that `placement` lays into the motion's world.
+  void place(const PlanarTransform& placement) { placement_ = placement; }
+  /// A state, with the velocities it has when it is shown `stretch` times slower.
+  void sample(const KernelState<double>& state, double time, double stretch = 1);
   /// The same with no velocity: a body at rest.
   void sampleAtRest(const KernelState<double>& state, double time);
-  /// Samples strictly inside a flight of `duration` seconds from `departure`, on the grid of 240
-  /// Hz.
-  void flight(const KernelState<double>& departure, double time, double duration);
+  /// Samples strictly inside a flight from `departure` that is shown in `duration` seconds,
+  /// `stretch` times slower than it is, on the grid of 240 Hz.
+  void flight(const KernelState<double>& departure, double time, double duration,
+              double stretch = 1);
   /// Runs `stepper` (time 0 = `time`) until `done` says so after some advance, or it rests, or
   /// `limit` s; writes flights in between at 1 ms and contact at every step. Contact is listed as
   /// silent where `silent`. Returns whether `done` was met.
@@ -28,11 +32,13 @@ class TrajectoryWriter {
            const std::function<bool(const Stepper&, Advance)>& done);
 
  private:
-  void inside(const KernelState<double>& departure, double time, double duration, double step);
+  void inside(const KernelState<double>& departure, double time, double duration, double step,
+              double stretch = 1);
   void listSilent(double begin, double end);
 
   BodyModel const& model_;
   Motion& motion_;
+  PlanarTransform placement_;
   Eigen::Quaterniond principalFromBody_;
 };
 

@@ -12,6 +12,7 @@
 
 #include "ifa/progress.h"
 #include "ifa/result.h"
+#include "ifa/synchronize.h"
 
 namespace ifa {
 
@@ -20,6 +21,7 @@ enum class Parity { kEven, kOdd };
 struct EvaluateSettings {
   std::filesystem::path folder;  ///< one folder per object in it, named NAME or NAME@SURFACE
   std::string planner = "shoot";
+  GraphOptions graph;  ///< for "graph"; a database that is named serves one object
   std::uint64_t seed = 1;
   double timeLimitSeconds = 0;   ///< per case; 0: never
   int jobs = 1;                  ///< cases at a time; each uses all cores by itself
@@ -43,10 +45,13 @@ struct CaseOutcome {
   std::string failure;  ///< why it is not solved
   int contacts = 0;     ///< n, events of the filtered signature
   double score = 0, scoreWithoutSound = 0, meanFv = 0;
-  double searchSeconds = 0;   ///< of the planner
-  double wallSeconds = 0;     ///< from reading the sound to the audited motion
-  double startError = 0;      ///< largest |contact start - target|, s
-  std::vector<double> bends;  ///< of every contact
+  double searchSeconds = 0;          ///< of the planner
+  double wallSeconds = 0;            ///< from reading the sound to the audited motion
+  double startError = 0;             ///< largest |contact start - target|, s
+  std::vector<double> bends;         ///< of every contact
+  std::vector<double> arrivalBends;  ///< likewise
+  std::int64_t events = -1;          ///< in the database; negative: none was used
+  double goodSeconds = -1;  ///< until Score 0.3 was reached ("graph"); negative: it was not
 };
 
 /// Rows of the table. Score, f_v, bend and search are over the solved cases, as in the paper; the
@@ -59,6 +64,11 @@ struct EvaluationRow {
   double meanScore = 0;
   double meanFv = 0;  ///< geometric, over all contacts
   double bendMedian = 0, bendShareUpToOne = 0, bendMax = 0;
+  std::int64_t events = -1;          ///< in the database; negative: none was used
+  int good = 0;                      ///< cases that reached Score 0.3 ("graph") ...
+  double meanGoodSeconds = 0;        ///< ... and how soon, s
+  double meanScoreWithoutSound = 0;  ///< eq. 13
+  double arrivalBendMedian = 0, arrivalBendMax = 0;
   double wallMedian = 0, wallP95 = 0;  ///< s
 };
 

@@ -38,14 +38,22 @@ std::string cell(std::string text) {
   return text;
 }
 
+/// What only searches of a database have.
+std::string markdownOfGraph(const EvaluationRow& row) {
+  return fmt::format(" {}/{} | {} | {:.3f} | {:.2f} | {:.2f} |", row.good, row.cases,
+                     row.good > 0 ? fmt::format("{:.2f}", row.meanGoodSeconds) : "",
+                     row.meanScoreWithoutSound, row.arrivalBendMedian, row.arrivalBendMax);
+}
+
 std::string markdownRow(const EvaluationRow& row) {
   const double share = row.cases > 0 ? 100.0 * row.solved / row.cases : 0;
   return fmt::format(
-      "| {} | none | {} | {:.1f} | {}/{} ({:.0f} %) | {:.2f} | {:.3f} | {:.3f} | {:.2f} | {:.1f} % "
-      "| {:.2f} | {:.2f} | {:.2f} |\n",
-      row.name, row.cases, row.meanContacts, row.solved, row.cases, share, row.meanSearchSeconds,
-      row.meanScore, row.meanFv, row.bendMedian, 100 * row.bendShareUpToOne, row.bendMax,
-      row.wallMedian, row.wallP95);
+      "| {} | {} | {} | {:.1f} | {}/{} ({:.0f} %) | {:.2f} | {:.3f} | {:.3f} | {:.2f} | {:.1f} % "
+      "| {:.2f} | {:.2f} | {:.2f} |{}\n",
+      row.name, row.events < 0 ? "none" : std::to_string(row.events), row.cases, row.meanContacts,
+      row.solved, row.cases, share, row.meanSearchSeconds, row.meanScore, row.meanFv,
+      row.bendMedian, 100 * row.bendShareUpToOne, row.bendMax, row.wallMedian, row.wallP95,
+      row.events < 0 ? "" : markdownOfGraph(row));
 }
 
 std::string markdownCase(const CaseOutcome& outcome) {
@@ -61,12 +69,15 @@ std::string markdownCase(const CaseOutcome& outcome) {
 Json rowJson(const EvaluationRow& row) {
   return {
       {"name", row.name},
-      {"database_events", nullptr},
+      {"database_events", row.events < 0 ? Json(nullptr) : Json(row.events)},
       {"cases", row.cases},
       {"mean_n", row.meanContacts},
       {"solved", row.solved},
       {"mean_search_seconds", row.meanSearchSeconds},
       {"mean_score", row.meanScore},
+      {"mean_score_without_sound", row.meanScoreWithoutSound},
+      {"good", row.good},
+      {"mean_seconds_to_good", row.meanGoodSeconds},
       {"mean_f_v", row.meanFv},
       {"bend",
        {{"median", row.bendMedian}, {"share_up_to_1", row.bendShareUpToOne}, {"max", row.bendMax}}},
@@ -84,6 +95,8 @@ Json caseJson(const CaseOutcome& outcome) {
           {"score_without_sound", outcome.scoreWithoutSound},
           {"mean_f_v", outcome.meanFv},
           {"bends", outcome.bends},
+          {"arrival_bends", outcome.arrivalBends},
+          {"seconds_to_good", outcome.goodSeconds < 0 ? Json(nullptr) : Json(outcome.goodSeconds)},
           {"largest_start_error", outcome.startError},
           {"search_seconds", outcome.searchSeconds},
           {"wall_seconds", outcome.wallSeconds}};
@@ -98,15 +111,22 @@ std::string parityName(const std::optional<Parity>& parity) {
 EvaluationRow summarize(std::string name, const std::vector<CaseOutcome>& cases) {
   EvaluationRow row;
   row.name = std::move(name);
-  std::vector<double> bends, walls;
+  std::vector<double> bends, arrivals, walls;
   double contacts = 0, heard = 0, solvedContacts = 0, logFv = 0;
   for (const CaseOutcome& outcome : cases) {
     ++row.cases;
     contacts += outcome.contacts;
     if (outcome.contacts > 0) ++heard;  // else it broke before its contacts were known
     walls.push_back(outcome.wallSeconds);
+    row.events = std::max(row.events, outcome.events);
     if (!outcome.solved) continue;
     ++row.solved;
+    if (outcome.goodSeconds >= 0) {
+      ++row.good;
+      row.meanGoodSeconds += outcome.goodSeconds;
+    }
+    row.meanScoreWithoutSound += outcome.scoreWithoutSound;
+    arrivals.insert(arrivals.end(), outcome.arrivalBends.begin(), outcome.arrivalBends.end());
     row.meanSearchSeconds += outcome.searchSeconds;
     row.meanScore += outcome.score;
     logFv += outcome.contacts * std::log(std::max(1e-300, outcome.meanFv));
@@ -119,6 +139,10 @@ EvaluationRow summarize(std::string name, const std::vector<CaseOutcome>& cases)
   if (row.solved == 0) return row;
   row.meanSearchSeconds /= row.solved;
   row.meanScore /= row.solved;
+  row.meanScoreWithoutSound /= row.solved;
+  if (row.good > 0) row.meanGoodSeconds /= row.good;
+  row.arrivalBendMedian = median(arrivals);
+  row.arrivalBendMax = quantile(arrivals, 1);
   row.meanFv = std::exp(logFv / std::max(1.0, solvedContacts));
   row.bendMedian = median(bends);
   row.bendMax = quantile(bends, 1);
@@ -129,10 +153,15 @@ EvaluationRow summarize(std::string name, const std::vector<CaseOutcome>& cases)
 }
 
 std::string evaluationMarkdown(const Evaluation& evaluation, bool withCases) {
+  const bool graph = evaluation.total.events >= 0;
   std::string text =
       "| object | events in database | cases | mean n | solved | search, s | Score | f_v | bend, "
-      "median | bend at most 1 | bend, largest | wall, median s | wall, p95 s |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+      "median | bend at most 1 | bend, largest | wall, median s | wall, p95 s |";
+  if (graph) {
+    text += " Score 0.3 | s to 0.3 | Score without sound | arrival bend, median | largest |";
+  }
+  text += "\n|---|---|---|---|---|---|---|---|---|---|---|---|---|";
+  text += graph ? "---|---|---|---|---|\n" : "\n";
   for (const EvaluationRow& row : evaluation.rows) text += markdownRow(row);
   text += markdownRow(evaluation.total);
   if (evaluation.interrupted) text += "\nInterrupted: only the cases that were done.\n";

@@ -10,7 +10,7 @@
 #include "base/file.h"
 #include "base/hash.h"
 #include "dynamics/simulator.h"
-#include "planner/shooting_settings.h"
+#include "planner/shooting_planner_settings.h"
 #include "sampler/calibration.h"
 #include "sampler/drop_statistics.h"
 
@@ -90,7 +90,7 @@ Learned learnObject(const Body& body, const SurfaceProperties& surface, const fs
   const BodyModel model(body, heard);
   const Learned learned{heard.referenceImpulse,
                         EnergyOutlook::learn(body, model, audibleCut(body, heard),
-                                             ShootingSettings().outlookDrops, progress)};
+                                             ShootingPlannerSettings().outlookDrops, progress)};
   if (!cache.empty() && !progress.stopRequested()) write(file, key, learned);
   progress("learn", 1);
   return learned;

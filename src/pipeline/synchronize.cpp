@@ -18,6 +18,7 @@
 #include "pipeline/hear.h"
 #include "pipeline/learned.h"
 #include "pipeline/output.h"
+#include "pipeline/synchronize_with.h"
 #include "planner/planner.h"
 
 namespace ifa {
@@ -40,6 +41,7 @@ Result<void> checkSettings(const SynchronizeSettings& settings) {
   if (auto good = checkRange(settings.takes, 1, kMaxTakes, "takes"); !good) return good;
   if (auto good = checkRange(settings.timeLimitSeconds, 0, 1e6, "time limit"); !good) return good;
   if (auto good = checkRange(settings.energyGain, 0, 10, "energy gain"); !good) return good;
+  if (auto good = checkRange(settings.graph.earlyExit, 0, 1, "early exit"); !good) return good;
   return checkRange(settings.preRollSeconds, 0, 10, "pre-roll");
 }
 
@@ -69,6 +71,7 @@ struct Job {
   Heard heard;
   std::unique_ptr<Planner> planner;
   EnergyOutlook outlook;
+  std::shared_ptr<const ContactGraph> graph;
 };
 
 Result<Job> prepare(const SynchronizeSettings& settings) {
@@ -81,15 +84,21 @@ Result<Job> prepare(const SynchronizeSettings& settings) {
   if (!surface) return tl::unexpected(surface.error());
   auto heard = hear(settings, body->definition.mergeGap);
   if (!heard) return tl::unexpected(heard.error());
-  return Job{std::move(*body), std::move(*surface), std::move(*heard), std::move(*planner), {}};
+  return Job{std::move(*body), std::move(*surface), std::move(*heard), std::move(*planner), {}, {}};
 }
 
 // Takes time on an object's first use, so it comes after all that can be refused at once.
-void learn(Job& job, const Progress& progress) {
+Result<void> learn(Job& job, const SynchronizeSettings& settings, GraphShelf& shelf,
+                   const Progress& progress) {
   SurfaceProperties& surface = job.body.definition.surfaces.at(job.surface);
   const Learned learned = learnObject(job.body, surface, cacheFolder(), progress);
   surface.referenceImpulse = learned.referenceImpulse;
   job.outlook = learned.outlook;
+  if (settings.planner != "graph") return {};
+  auto graph = shelf.get(job.body, surface, job.surface, progress);
+  if (!graph) return tl::unexpected(graph.error());
+  job.graph = std::move(*graph);
+  return {};
 }
 
 PlanRequest makeRequest(const SynchronizeSettings& settings, const Job& job) {
@@ -101,7 +110,9 @@ PlanRequest makeRequest(const SynchronizeSettings& settings, const Job& job) {
   request.settings.takes = settings.takes;
   request.settings.timeLimitSeconds = settings.timeLimitSeconds;
   request.settings.energyGain = settings.energyGain;
+  request.settings.earlyExit = settings.graph.earlyExit;
   request.outlook = job.outlook;
+  request.graph = job.graph.get();
   return request;
 }
 
@@ -144,6 +155,11 @@ Result<Search> search(const SynchronizeSettings& settings, const Job& job,
   return found;
 }
 
+DatabaseReference referenceTo(const EventDatabase& database) {
+  return {static_cast<std::int64_t>(database.simulations()),
+          static_cast<std::int64_t>(database.events()), fmt::format("{:016x}", database.hash())};
+}
+
 Result<Motion> makeTake(const SynchronizeSettings& settings, const Job& job, const Search& found,
                         const Plan& plan) {
   auto motion = buildMotion(found.request, plan, settings.preRollSeconds);
@@ -154,6 +170,7 @@ Result<Motion> makeTake(const SynchronizeSettings& settings, const Job& job, con
   motion->object.surface = job.surface;
   motion->object.mesh = copiedMeshName(job.body.definition);
   motion->searchSeconds = found.seconds;
+  if (job.graph) motion->database = referenceTo(job.graph->database());
   placeInSound(*motion, job.heard);
   auditTake(*motion, job.body);
   return motion;
@@ -176,11 +193,19 @@ Result<Synchronization> run(const SynchronizeSettings& settings, const Job& job,
 
 }  // namespace
 
-Result<Synchronization> synchronize(const SynchronizeSettings& settings, const Progress& progress) {
+Result<Synchronization> synchronizeWith(const SynchronizeSettings& settings, GraphShelf& shelf,
+                                        const Progress& progress) {
   auto job = prepare(settings);
   if (!job) return tl::unexpected(job.error());
-  learn(*job, progress);
+  if (auto good = learn(*job, settings, shelf, progress); !good) {
+    return tl::unexpected(good.error());
+  }
   return run(settings, *job, progress);
+}
+
+Result<Synchronization> synchronize(const SynchronizeSettings& settings, const Progress& progress) {
+  GraphShelf shelf(settings.graph, settings.energyGain);
+  return synchronizeWith(settings, shelf, progress);
 }
 
 Result<Synchronization> synchronizeToFolder(const SynchronizeSettings& settings,
@@ -195,7 +220,10 @@ Result<Synchronization> synchronizeToFolder(const SynchronizeSettings& settings,
   if (auto good = checkOutput(output); !good) return tl::unexpected(good.error());
   auto staged = StagedFolder::open(folder);
   if (!staged) return tl::unexpected(staged.error());
-  learn(*job, progress);
+  GraphShelf shelf(settings.graph, settings.energyGain);
+  if (auto good = learn(*job, settings, shelf, progress); !good) {
+    return tl::unexpected(good.error());
+  }
   auto result = run(settings, *job, progress);
   if (!result) return result;
   const auto told = writeTakes(staged->path(), result->takes, settings.takes > 1, job->body,

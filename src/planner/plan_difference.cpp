@@ -17,10 +17,11 @@ constexpr double kShare = 0.1;  ///< of the path's length
 Points pathOf(const Plan& plan) {
   Points points;
   for (const PlannedContact& contact : plan.contacts) {
-    points.push_back(contact.event.before.position.head<2>());
+    points.push_back(contact.placement.apply(contact.event.before).position.head<2>());
   }
   if (!plan.contacts.empty()) {
-    points.push_back(plan.contacts.back().event.after.position.head<2>());
+    const PlannedContact& last = plan.contacts.back();
+    points.push_back(last.placement.apply(last.event.after).position.head<2>());
   }
   return points;
 }

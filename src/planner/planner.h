@@ -10,6 +10,8 @@
 
 #include "base/progress.h"
 #include "body/body.h"
+#include "connection/registration.h"
+#include "graph/contact_graph.h"
 #include "ifa/contact_signature.h"
 #include "ifa/motion.h"
 #include "ifa/result.h"
@@ -19,14 +21,18 @@
 
 namespace ifa {
 
+/// The Score at which the paper's search ends (IFA 5.5, "early exit").
+inline constexpr double kGoodScore = 0.3;
+
 /// What the user may set for any planner.
 struct PlannerSettings {
   std::uint64_t seed = 1;
-  int takes = 1;                ///< different plans wanted, 1 to 32
-  double timeLimitSeconds = 0;  ///< cuts the search off; 0: never
-  double energyGain = 0;        ///< eq. 10 relaxed to E (1 + gain), for music
-  double bendCap = 2;           ///< no contact may be changed by more
-  double effort = 1;            ///< scales the budget of counted work
+  int takes = 1;                  ///< different plans wanted, 1 to 32
+  double timeLimitSeconds = 0;    ///< cuts the search off; 0: never
+  double energyGain = 0;          ///< eq. 10 relaxed to E (1 + gain), for music
+  double bendCap = 2;             ///< no contact may be changed by more
+  double effort = 1;              ///< scales the budget of counted work
+  double earlyExit = kGoodScore;  ///< "graph": a motion of this Score ends the search
 };
 
 /// What is to be planned.
@@ -36,21 +42,31 @@ struct PlanRequest {
   ContactSignature signature;
   PlannerSettings settings;
   std::optional<EnergyOutlook> outlook;  ///< of body and surface; learnt when not given
+  const ContactGraph* graph = nullptr;   ///< of body and surface; "graph" needs it
 };
 
 /// One contact of a plan: the event as simulated, and the change of velocity that leads out of it.
 struct PlannedContact {
-  int target = 0;          ///< index of the signature's event that it meets
-  ContactEvent event;      ///< times in the event's own simulation; `before` starts it
-  double time = 0;         ///< start in the plan, s after the first contact
-  double restitution = 0;  ///< used inside this event
-  /// Added to `event.after` before the flight (or silent contact) to the next contact.
+  int target = 0;             ///< index of the signature's event that it meets
+  ContactEvent event;         ///< in its own simulation's time and frame; `before` starts it
+  PlanarTransform placement;  ///< lays that frame into the plan's world
+  double time = 0;            ///< start in the plan, s after the first contact
+  double restitution = 0;     ///< used inside this event
+  /// Added to `event.after` before the flight (or silent contact) to the next contact. In the
+  /// event's frame, as the next one.
   Eigen::Vector3d velocityChange = Eigen::Vector3d::Zero();         ///< m/s
-  Eigen::Vector3d angularVelocityChange = Eigen::Vector3d::Zero();  ///< rad/s, world frame
+  Eigen::Vector3d angularVelocityChange = Eigen::Vector3d::Zero();  ///< rad/s
+  /// `event.before` less the velocities with which the body really arrives: what the contact has to
+  /// make up for besides. 0 but for connections (IFA 5.3.2 meets poses, not velocities).
+  Eigen::Vector3d arrivalChange = Eigen::Vector3d::Zero();         ///< m/s
+  Eigen::Vector3d arrivalAngularChange = Eigen::Vector3d::Zero();  ///< rad/s
   double relativeAmplitude = 1;
   ContactFactors factors;  ///< of the edge that arrives here
   double bend = 0;         ///< likewise
+  double retiming = 1;     ///< T* / T_b of it; 1 unless time is warped
+  double arrivalBend = 0;  ///< length of the arrival change, in units of this contact's region
   Arrival arrival = Arrival::kFlight;
+  ContactSource source;
 };
 
 /// A planned motion, or as much of one as was found.
@@ -58,6 +74,8 @@ struct Plan {
   bool solved = false;
   std::string failure;  ///< which contact fails, why, and what would help; empty when solved
   bool timeLimitReached = false;
+  double secondsToGoodScore = -1;  ///< "graph": until kGoodScore was reached; negative: it was not
+  double bendCap = 2;              ///< what the planner kept all bends under
   double score = 0, scoreWithoutSound = 0, meanFv = 0, bendMedian = 0, bendMax = 0;
   std::vector<PlannedContact> contacts;
 };
@@ -73,7 +91,7 @@ class Planner {
                                                        const Progress& progress) const = 0;
 };
 
-/// @param name  "shoot" (others follow)
+/// @param name  "shoot" or "graph". Errors: kUsage for another.
 [[nodiscard]] Result<std::unique_ptr<Planner>> makePlanner(const std::string& name);
 
 }  // namespace ifa

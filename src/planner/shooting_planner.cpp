@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "planner/check_request.h"
 #include "planner/plan_difference.h"
 #include "planner/shooting_search.h"
 
@@ -25,6 +26,7 @@ PlannedContact contactOf(const ShootingNode& node) {
   contact.relativeAmplitude = node.heard.amplitude;
   contact.bend = node.bend;
   contact.arrival = node.arrival;
+  contact.source.kind = node.level == 0 ? SourceKind::kSampled : SourceKind::kShot;
   return contact;
 }
 
@@ -156,23 +158,11 @@ class Takes {
   std::vector<Plan> plans_;
 };
 
-Result<void> check(const PlanRequest& request) {
-  const auto& events = request.signature.events;
-  if (events.empty())
-    return badInput("the signature has no events", "signature", "mark at least one contact");
-  for (std::size_t i = 1; i < events.size(); ++i) {
-    if (!(events[i].time > events[i - 1].time)) {
-      return badInput("events are out of order", fmt::format("event {}", i + 1));
-    }
-  }
-  return {};
-}
-
 }  // namespace
 
 Result<std::vector<Plan>> ShootingPlanner::plan(const PlanRequest& request,
                                                 const Progress& progress) const {
-  if (const auto good = check(request); !good) return tl::unexpected(good.error());
+  if (const auto good = checkRequest(request); !good) return tl::unexpected(good.error());
   const auto begin = Clock::now();
   const double limit = request.settings.timeLimitSeconds;
   const auto late = [&] {
@@ -217,14 +207,11 @@ Result<std::vector<Plan>> ShootingPlanner::plan(const PlanRequest& request,
     plans.push_back(longest != partial.end() ? *longest : Plan{});
     if (cut) plans[0].failure = "the time limit was reached; " + plans[0].failure;
   }
-  for (Plan& plan : plans) plan.timeLimitReached = cut;
+  for (Plan& plan : plans) {
+    plan.timeLimitReached = cut;
+    plan.bendCap = request.settings.bendCap;
+  }
   return plans;
-}
-
-Result<std::unique_ptr<Planner>> makePlanner(const std::string& name) {
-  if (name == "shoot") return std::make_unique<ShootingPlanner>();
-  return tl::unexpected<Error>(
-      {ErrorCode::kUsage, "there is no planner \"" + name + "\"", "--planner", "use shoot"});
 }
 
 }  // namespace ifa

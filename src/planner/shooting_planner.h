@@ -3,18 +3,18 @@
 #pragma once
 
 #include "planner/planner.h"
-#include "planner/shooting_settings.h"
+#include "planner/shooting_planner_settings.h"
 
 namespace ifa {
 
 class ShootingPlanner : public Planner {
  public:
-  explicit ShootingPlanner(const ShootingSettings& settings = {}) : settings_(settings) {}
+  explicit ShootingPlanner(const ShootingPlannerSettings& settings = {}) : settings_(settings) {}
   [[nodiscard]] Result<std::vector<Plan>> plan(const PlanRequest& request,
                                                const Progress& progress) const override;
 
  private:
-  ShootingSettings settings_;
+  ShootingPlannerSettings settings_;
 };
 
 }  // namespace ifa

@@ -22,7 +22,7 @@ bool better(const ShootingNode& a, const ShootingNode& b) { return a.worth() > b
 
 }  // namespace
 
-ShootingProblem::ShootingProblem(const PlanRequest& planned, const ShootingSettings& tuning)
+ShootingProblem::ShootingProblem(const PlanRequest& planned, const ShootingPlannerSettings& tuning)
     : request(planned), settings(tuning), model(*planned.body, planned.surface) {
   recorder = audibleCut(*planned.body, planned.surface);
   std::vector<double> starts, amplitudes;

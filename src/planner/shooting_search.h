@@ -13,16 +13,16 @@
 #include "planner/event_simulation.h"
 #include "planner/flight_timing.h"
 #include "planner/planner.h"
-#include "planner/shooting_settings.h"
+#include "planner/shooting_planner_settings.h"
 
 namespace ifa {
 
 /// Everything that is the same for all passes of one plan.
 struct ShootingProblem {
-  ShootingProblem(const PlanRequest& planned, const ShootingSettings& tuning);
+  ShootingProblem(const PlanRequest& planned, const ShootingPlannerSettings& tuning);
 
   const PlanRequest& request;
-  ShootingSettings settings;
+  ShootingPlannerSettings settings;
   BodyModel model;
   RecorderSettings recorder;
   EnergyOutlook outlook;

@@ -67,7 +67,7 @@ const Built& built(std::size_t index) {
   made.request.settings.takes = wanted.takes;
   // Few first contacts bring a body to rest at once.
   const bool one = made.request.signature.events.size() == 1;
-  const ShootingPlanner planner(one ? ShootingSettings() : test::smallSearch());
+  const ShootingPlanner planner(one ? ShootingPlannerSettings() : test::smallSearch());
   made.plans = planner.plan(made.request, {}).value();
   for (const Plan& plan : made.plans) {
     auto motion = buildMotion(made.request, plan, kPreRoll);

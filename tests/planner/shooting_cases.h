@@ -11,8 +11,8 @@
 namespace ifa::test {
 
 /// A search of a tenth of the usual width.
-inline ShootingSettings smallSearch() {
-  ShootingSettings settings;
+inline ShootingPlannerSettings smallSearch() {
+  ShootingPlannerSettings settings;
   settings.firstContacts = 400;
   settings.beam = 40;
   settings.perEnergyBin = 12;

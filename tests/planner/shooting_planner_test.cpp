@@ -21,7 +21,7 @@ using test::clicks;
 using testing::HasSubstr;
 
 std::vector<Plan> plansOf(const PlanRequest& request,
-                          const ShootingSettings& settings = test::smallSearch()) {
+                          const ShootingPlannerSettings& settings = test::smallSearch()) {
   const auto plans = ShootingPlanner(settings).plan(request, {});
   EXPECT_TRUE(plans.has_value());
   return plans.value_or(std::vector<Plan>(1));
@@ -101,7 +101,7 @@ TEST(ShootingPlannerTest, SolvesWhatWasHeardOfDrops) {
   int solved = 0;
   for (const ContactSignature& signature : test::signatures(test::die(), 4, 5, 9)) {
     const PlanRequest request = dieRequest(signature);
-    const Plan plan = plansOf(request, ShootingSettings()).front();
+    const Plan plan = plansOf(request, ShootingPlannerSettings()).front();
     SCOPED_TRACE(testing::Message() << signature.events.size() << " contacts: " << plan.failure);
     expectSound(request, plan);
     EXPECT_EQ(plan.solved, plan.failure.empty());
@@ -134,7 +134,7 @@ TEST(ShootingPlannerTest, OneTerminalContact) {
   const Body eraser = loadObject("Eraser").value();
   PlanRequest request = test::requestFor(eraser);
   request.signature = clicks({{0, 0.03, 1, 0.01, 1}}, true);
-  const Plan plan = plansOf(request, ShootingSettings()).front();
+  const Plan plan = plansOf(request, ShootingPlannerSettings()).front();
   ASSERT_TRUE(plan.solved) << plan.failure;
   ASSERT_EQ(plan.contacts.size(), 1U);
   EXPECT_TRUE(plan.contacts[0].event.terminal);
@@ -147,7 +147,7 @@ TEST(ShootingPlannerTest, TwoContacts) {
   const Body eraser = loadObject("Eraser").value();
   PlanRequest request = test::requestFor(eraser);
   request.signature = clicks({{0, 0, 1, 0, 1}, {0.12, 0.03, 0.5, 0.01, 1}}, true);
-  const Plan plan = plansOf(request, ShootingSettings()).front();
+  const Plan plan = plansOf(request, ShootingPlannerSettings()).front();
   ASSERT_TRUE(plan.solved) << plan.failure;
   ASSERT_EQ(plan.contacts.size(), 2U);
   expectSound(request, plan);
@@ -260,7 +260,7 @@ TEST(ShootingPlannerTest, KeepsToTheTimeLimitAndSaysSo) {
   // Nothing solves this one, so all passes would be searched.
   PlanRequest request = dieRequest(test::signatures(test::die(), 1, 18, 40).front());
   request.surface.restitution = 0.2;
-  ShootingSettings wide;
+  ShootingPlannerSettings wide;
   wide.passes = 1000;
   wide.outlookDrops = 50;
   wide.goodScore = 2;

@@ -4,7 +4,7 @@
 
 namespace ifa {
 
-struct ShootingSettings {
+struct ShootingPlannerSettings {
   int firstContacts = 3000;  ///< initial states tried
   int fewContacts = 4;       ///< signatures of so few contacts also begin ...
   int lateContacts = 2000;   ///< ... late in so many drops

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "graph_options.h"
+
+#include "command.h"
+
+namespace ifa::cli {
+
+void addGraphOptions(CLI::App& command, GraphOptions& options) {
+  const std::string group = "Planner \"graph\"";
+  command
+      .add_option("--database", options.database,
+                  "event database of this object (default: the cache's, made on first use)")
+      ->group(group);
+  command.add_option("--simulations", options.simulations, "size of the cache's database")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1000000000}))
+      ->capture_default_str()
+      ->group(group);
+  command.add_option("--early-exit", options.earlyExit, "a motion of this Score ends the search")
+      ->check(numberFrom(0, 1))
+      ->capture_default_str()
+      ->group(group);
+  command
+      .add_flag("--printed-velocity", options.printedVelocity,
+                "weigh changes of velocity as the paper prints it")
+      ->group(group);
+  command
+      .add_option_function<std::string>(
+          "--connection",
+          [&options](const std::string& kind) { options.timeWarp = kind == "blend"; },
+          "exact: flights that take the sound's time; blend: as in the paper, then shown at "
+          "another "
+          "pace")
+      ->check(CLI::IsMember({"exact", "blend"}))
+      ->default_str("exact")
+      ->group(group);
+}
+
+}  // namespace ifa::cli

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The contact-event graph of an object, from a database that is named or the cache's.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+
+#include "base/progress.h"
+#include "body/body.h"
+#include "graph/contact_graph.h"
+#include "ifa/synchronize.h"
+
+namespace ifa {
+
+/// Keeps the last graph that was asked for, so that one search after another need not index the
+/// same database. The options and the energy gain are those of all. Thread safe.
+class GraphShelf {
+ public:
+  GraphShelf(GraphOptions options, double energyGain)
+      : options_(std::move(options)), energyGain_(energyGain) {}
+
+  /// @param surface  with its J_ref
+  /// Errors: kBadInput for a database of another body, surface or version, kInterrupted; those of
+  /// buildDatabase.
+  [[nodiscard]] Result<std::shared_ptr<const ContactGraph>> get(const Body& body,
+                                                                const SurfaceProperties& surface,
+                                                                const std::string& surfaceName,
+                                                                const Progress& progress);
+
+ private:
+  [[nodiscard]] GraphSettings graphSettings() const;
+
+  GraphOptions options_;
+  double energyGain_;
+  std::mutex mutex_;
+  std::filesystem::path path_;
+  std::shared_ptr<const ContactGraph> graph_;
+};
+
+}  // namespace ifa

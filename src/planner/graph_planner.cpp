@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "planner/graph_planner.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "planner/check_request.h"
+#include "planner/graph_plan.h"
+#include "planner/plan_difference.h"
+
+namespace ifa {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Plans found so far, best first, no two the same.
+class Found {
+ public:
+  explicit Found(std::size_t wanted) : wanted_(wanted) {}
+
+  void add(Plan plan) {
+    plan.solved = true;
+    const auto worse = std::find_if(plans_.begin(), plans_.end(),
+                                    [&](const Plan& other) { return plan.score > other.score; });
+    const auto same = [](const Plan& a) {
+      return [&a](const Plan& b) { return !differentPaths(a, b); };
+    };
+    if (std::any_of(plans_.begin(), worse, same(plan))) return;
+    const auto at = plans_.insert(worse, std::move(plan));
+    plans_.erase(std::remove_if(at + 1, plans_.end(), same(*at)), plans_.end());
+    if (plans_.size() > wanted_) plans_.resize(wanted_);
+  }
+  [[nodiscard]] bool reached(double score) const {
+    return !plans_.empty() && plans_[0].score >= score;
+  }
+  [[nodiscard]] bool full() const { return plans_.size() >= wanted_; }
+  [[nodiscard]] std::vector<Plan> take() { return std::move(plans_); }
+
+ private:
+  std::size_t wanted_;
+  std::vector<Plan> plans_;
+};
+
+/// Events that do not end in rest, best first by their sound.
+std::vector<PathEnd> bestPassing(const ContactGraph& graph, const HeardEvent& target,
+                                 std::size_t count) {
+  std::vector<PathEnd> found;
+  const auto flags = graph.database().flags();
+  for (std::uint32_t id = 0; id < flags.size(); ++id) {
+    if ((flags[id] & EventRecord::kTerminal) != 0) continue;
+    const HeardEvent heard = graph.heard(id, 1);
+    found.push_back({id, logDuration(target, heard) + logCentroid(target, heard)});
+  }
+  const auto middle = found.begin() + static_cast<std::ptrdiff_t>(std::min(count, found.size()));
+  std::partial_sort(found.begin(), middle, found.end(), [](const PathEnd& a, const PathEnd& b) {
+    return a.total != b.total ? a.total > b.total : a.event < b.event;
+  });
+  found.erase(middle, found.end());
+  return found;
+}
+
+/// One call of plan().
+class GraphRun {
+ public:
+  GraphRun(const PlanRequest& request, const GraphPlannerSettings& settings,
+           const Progress& progress)
+      : request_(request),
+        settings_(settings),
+        progress_(progress),
+        connector_(request),
+        found_(static_cast<std::size_t>(std::max(1, request.settings.takes))) {}
+
+  std::vector<Plan> run() {
+    request_.signature.events.size() == 1 ? runSingle() : runSearch();
+    std::vector<Plan> plans = found_.take();
+    if (plans.empty()) plans.push_back(partial());
+    for (Plan& plan : plans) {
+      plan.timeLimitReached = cut_;
+      plan.secondsToGoodScore = secondsToGood_;
+    }
+    return plans;
+  }
+
+ private:
+  [[nodiscard]] double elapsed() const {
+    return std::chrono::duration<double>(Clock::now() - begin_).count();
+  }
+  bool stop() {
+    const double limit = request_.settings.timeLimitSeconds;
+    if (limit > 0 && elapsed() > limit) cut_ = true;
+    return cut_ || progress_.stopRequested();
+  }
+  void keep(const GraphPath& path) {
+    found_.add(planOf(request_, path, connector_));
+    if (secondsToGood_ < 0 && found_.reached(kGoodScore)) secondsToGood_ = elapsed();
+  }
+
+  /// An event, and the motion that comes to it (5.5).
+  void runSingle() {
+    const SignatureEvent& only = request_.signature.events[0];
+    constexpr std::size_t kTries = 16;  // of which some may be the same take
+    const std::size_t count = kTries * static_cast<std::size_t>(request_.settings.takes);
+    const HeardEvent heard{only.amplitude, only.duration, only.centroid};
+    for (const PathEnd& end : request_.signature.terminal
+                                  ? request_.graph->bestTerminals(heard, count)
+                                  : bestPassing(*request_.graph, heard, count)) {
+      GraphPath path;
+      path.first = end.event;
+      path.firstAmplitude = request_.graph->event(end.event).amplitude;
+      keep(path);
+    }
+  }
+
+  void runSearch() {
+    GraphSearch search(request_, settings_, connector_, [this] { return stop(); });
+    search.progress = [this](double share) { progress_("search", share); };
+    while (!(found_.full() && found_.reached(request_.settings.earlyExit))) {
+      const auto path = search.next();
+      if (!path) break;
+      keep(*path);
+    }
+    farthest_ = search.farthest();
+  }
+
+  Plan partial() {
+    Plan plan;
+    if (!farthest_.edges.empty()) plan = planOf(request_, farthest_, connector_);
+    plan.failure = failure();
+    if (cut_) plan.failure = "the time limit was reached; " + plan.failure;
+    return plan;
+  }
+
+  [[nodiscard]] std::string failure() const {
+    const auto& events = request_.signature.events;
+    const auto next = static_cast<std::size_t>(farthest_.last()) + 1;
+    if (next >= events.size()) return "no path through the database was found";
+    return fmt::format(
+        "contact {} at {:.3f} s cannot be met: no transition of the database leads there, {:.0f} "
+        "ms after the contact before; a larger database, another restitution, or a mark that was "
+        "missed or is false?",
+        next + 1, events[next].time, 1e3 * (events[next].time - events[next - 1].time));
+  }
+
+  const PlanRequest& request_;
+  const GraphPlannerSettings& settings_;
+  const Progress& progress_;
+  Clock::time_point begin_ = Clock::now();
+  PathConnector connector_;
+  Found found_;
+  GraphPath farthest_;
+  double secondsToGood_ = -1;
+  bool cut_ = false;
+};
+
+}  // namespace
+
+Result<std::vector<Plan>> GraphPlanner::plan(const PlanRequest& request,
+                                             const Progress& progress) const {
+  if (const auto good = checkRequest(request); !good) return tl::unexpected(good.error());
+  if (request.graph == nullptr) {
+    return tl::unexpected<Error>({ErrorCode::kUsage, "the graph planner needs an event database",
+                                  "--database", "build one with ifa database build"});
+  }
+  std::vector<Plan> plans = GraphRun(request, settings_, progress).run();
+  if (progress.stopRequested() && !plans[0].solved) {
+    return tl::unexpected<Error>({ErrorCode::kInterrupted, "interrupted", {}, {}});
+  }
+  return plans;
+}
+
+}  // namespace ifa

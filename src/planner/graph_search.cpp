@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "planner/graph_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace ifa {
+
+namespace {
+
+constexpr double kNothing = -std::numeric_limits<double>::infinity();
+/// Lists of children that are kept; then they are looked for again.
+constexpr std::size_t kMostLists = 200000;
+/// Times the children wanted that are looked at where few can go on.
+constexpr std::size_t kMostAhead = 512;
+
+HeardEvent heardOf(const SignatureEvent& event) {
+  return {event.amplitude, event.duration, event.centroid};
+}
+
+}  // namespace
+
+double GraphPath::total() const {
+  double sum = sound.total();
+  for (const GraphEdge& edge : edges) sum += edge.weight.total();
+  return sum;
+}
+
+GraphSearch::GraphSearch(const PlanRequest& request, const GraphPlannerSettings& settings,
+                         PathConnector& connector, std::function<bool()> stop)
+    : request_(request),
+      settings_(settings),
+      connector_(connector),
+      graph_(*request.graph),
+      stop_(std::move(stop)) {
+  const auto& events = request.signature.events;
+  TransitionTarget second;
+  second.heard = heardOf(events[1]);
+  second.terminal = events.size() == 2 && request.signature.terminal;
+  const auto heights = graph_.database().values(kBeforeHeight);
+  if (!heights.empty()) lowest_ = *std::min_element(heights.begin(), heights.end());
+  starts_ = graph_.bestStarts(events[1].time - events[0].time, heardOf(events[0]), second,
+                              settings.starts);
+}
+
+int GraphSearch::levels() const { return static_cast<int>(request_.signature.events.size()); }
+
+bool GraphSearch::spent() const {
+  return stopped_ || static_cast<double>(queries_) >
+                         static_cast<double>(settings_.mostQueries) * request_.settings.effort;
+}
+
+/// T* of the edge that leaves the path's last event. Starts are met exactly, so the signature's
+/// times are the plan's.
+double GraphSearch::timeAfter(const GraphPath& path) const {
+  const auto level = static_cast<std::size_t>(path.last());
+  const auto& events = request_.signature.events;
+  return events[level + 1].time - events[level].time -
+         connector_.event(path.event(path.last())).end;
+}
+
+bool GraphSearch::banned(const GraphPath& path, std::uint32_t sibling) const {
+  const int level = path.last();
+  if (noFlight_.count({level, path.event(level), sibling}) > 0) return true;
+  const std::uint32_t before = level == 0 ? path.first : path.edges.back().sibling;
+  return noTurn_.count({path.first, level, before, sibling}) > 0;
+}
+
+/// The best edges that leave the path's last event, and as many more as are known to lead nowhere.
+const std::vector<GraphChild>& GraphSearch::children(const GraphPath& path) {
+  const int level = path.last();
+  const std::uint32_t event = path.event(level);
+  const auto key = std::tuple(path.first, level, event);
+  const auto bans = bans_.find({level, event});
+  const std::size_t wanted = settings_.children + (bans == bans_.end() ? 0 : bans->second);
+  const auto known = children_.find(key);
+  if (known != children_.end() && known->second.size() >= wanted) return known->second;
+  ++queries_;
+  stopped_ = stopped_ || stop_();
+  if (children_.size() > kMostLists) children_.clear();
+  return children_.insert_or_assign(key, find(path, wanted)).first->second;
+}
+
+std::vector<GraphChild> GraphSearch::find(const GraphPath& path, std::size_t wanted) {
+  const int level = path.last();
+  const ContactEvent& left = connector_.event(path.event(level));
+  if (left.touchingAfter) return {};
+  TransitionTarget target;
+  target.time = timeAfter(path);
+  target.heard = heardOf(request_.signature.events[static_cast<std::size_t>(level) + 1]);
+  target.terminal = level + 2 == levels() && request_.signature.terminal;
+  target.firstAmplitude = path.firstAmplitude;
+  const bool ahead = level + 2 < levels() && settings_.lookAhead > 1;
+  const TransitionSource source{left.before, left.after};
+  std::vector<GraphChild> found;
+  // Where most cannot go on from there, more are looked at.
+  for (std::size_t factor = ahead ? settings_.lookAhead : 1;; factor *= settings_.lookAhead) {
+    const std::vector<Transition> edges = graph_.best(source, target, wanted * factor);
+    found.clear();
+    for (const Transition& edge : edges) {
+      GraphChild child{edge, 0, edge.total};
+      if (ahead) lookAhead(level + 1, child);
+      if (child.bound > graph_.settings().leastVelocity) found.push_back(child);
+    }
+    const bool all = edges.size() < wanted * factor;
+    if (!ahead || all || found.size() >= wanted || factor >= kMostAhead) break;
+  }
+  std::sort(found.begin(), found.end(), [](const GraphChild& a, const GraphChild& b) {
+    return a.worth != b.worth ? a.worth > b.worth : a.transition.sibling < b.transition.sibling;
+  });
+  if (found.size() > wanted) found.resize(wanted);
+  return found;
+}
+
+/// The height of a body in contact lies between narrow limits, and so does the vertical velocity
+/// that its next flight takes: how far the event's own is from it is known beforehand.
+void GraphSearch::lookAhead(int level, GraphChild& child) const {
+  const std::uint32_t event = child.transition.event();
+  const EventDatabase& database = graph_.database();
+  const auto value = [&](Column column) { return double{database.values(column)[event]}; };
+  const auto index = static_cast<std::size_t>(level);
+  const auto& events = request_.signature.events;
+  const double time = events[index + 1].time - events[index].time - value(kDuration);
+  const bool flies = (database.flags()[event] & EventRecord::kTouchingAfter) == 0;
+  if (!flies || time <= 0) {
+    child.bound = kNothing;
+    return;
+  }
+  if (graph_.settings().velocityReference == VelocityReference::kPrinted) return;
+  const double vertical = value(kAfterVelocityZ), height = value(kAfterHeight);
+  const Eigen::Vector3d change(value(kAfterVelocityX) - value(kBeforeVelocityX),
+                               value(kAfterVelocityY) - value(kBeforeVelocityY),
+                               vertical - value(kBeforeVelocityZ));
+  const PlausibleRegion region(change, Eigen::Vector3d::Zero(), connector_.model().radius,
+                               graph_.settings().affinity);
+  const auto cost = [&](double rise) {
+    return logVelocity(region.bend({0, 0, rise}, Eigen::Vector3d::Zero()));
+  };
+  const double even = 0.5 * kGravity * time - vertical;
+  const double least = even + (lowest_ - height) / time;
+  const double most = even + (connector_.model().radius - height) / time;
+  child.bound = cost(std::clamp(0.0, least, most));
+  child.worth += cost(even);
+}
+
+/// Depth first, the best edges first. All weights are at most 0, and that of the next edge at most
+/// its bound: a path that is no better than the best one need not be followed.
+void GraphSearch::descend(GraphPath& path, int depth, double total) {
+  if (depth == 0) {
+    best_ = path;
+    bestTotal_ = total;
+    return;
+  }
+  if (spent()) return;
+  const std::vector<GraphChild> list = children(path);
+  std::size_t followed = 0;
+  for (const GraphChild& child : list) {
+    const Transition& next = child.transition;
+    if (followed == settings_.children) return;
+    if (banned(path, next.sibling)) continue;
+    ++followed;
+    if (total + next.total + (depth > 1 ? child.bound : 0) <= bestTotal_) continue;
+    path.edges.push_back({next.sibling, timeAfter(path), next.weight});
+    descend(path, depth - 1, total + next.total);
+    path.edges.pop_back();
+  }
+}
+
+void GraphSearch::descendFromStarts(int depth) {
+  for (const PathStart& start : starts_) {
+    if (start.total <= bestTotal_) return;
+    if (usedStarts_.count(start.first) > 0) continue;
+    GraphPath path;
+    path.first = start.first;
+    path.firstAmplitude = graph_.event(start.first).amplitude;
+    path.sound = start.sound;
+    if (banned(path, start.first)) continue;
+    path.edges.push_back({start.first, timeAfter(path), start.weight});
+    descend(path, depth - 1, start.total);
+  }
+}
+
+/// The best path that goes on from `kept` (from any start where that has no edges) to the horizon,
+/// whose connections are made.
+std::optional<GraphPath> GraphSearch::bestFrom(const GraphPath& kept) {
+  const int depth = std::min(settings_.horizon, levels() - 1 - kept.last());
+  while (!spent()) {
+    best_.reset();
+    bestTotal_ = kNothing;
+    if (kept.edges.empty()) {
+      descendFromStarts(depth);
+    } else {
+      GraphPath path = kept;
+      descend(path, depth, kept.total());
+    }
+    if (!best_ || allConnect(*best_)) return best_;
+  }
+  return {};
+}
+
+/// Makes the connection that leaves the event of `level`. Where there is none the edge is banned.
+bool GraphSearch::connects(const GraphPath& path, int level) {
+  const auto index = static_cast<std::size_t>(level);
+  const GraphEdge& edge = path.edges[index];
+  const std::uint32_t event = path.event(level);
+  const ConnectedEdge& made = connector_.edge(level, event, edge.sibling, edge.time);
+  bool good = made.feasible;
+  if (!good) {
+    noFlight_.insert({level, event, edge.sibling});
+  } else {
+    const GraphEdge* before = level == 0 ? nullptr : &path.edges[index - 1];
+    const ConnectedEdge* arrival =
+        before == nullptr
+            ? nullptr
+            : &connector_.edge(level - 1, path.event(level - 1), before->sibling, before->time);
+    good = connector_.energyAllows(event, arrival, made);
+    if (!good) {
+      noTurn_.insert(
+          {path.first, level, before == nullptr ? path.first : before->sibling, edge.sibling});
+    }
+  }
+  if (!good) ++bans_[{level, event}];
+  return good;
+}
+
+bool GraphSearch::allConnect(const GraphPath& path) {
+  for (int level = 0; level < path.last(); ++level) {
+    if (!connects(path, level)) return false;
+    if (level + 1 > farthest_.last()) {
+      farthest_ = path;
+      farthest_.edges.resize(static_cast<std::size_t>(level) + 1);
+    }
+  }
+  return true;
+}
+
+/// Nothing leads on from `kept`: gives up its last edge. False when that was the first.
+bool GraphSearch::stepBack(GraphPath& kept) {
+  const int level = kept.last() - 1;
+  const std::uint32_t sibling = kept.edges.back().sibling;
+  kept.edges.pop_back();
+  if (kept.edges.empty() || ++deadEnds_ > settings_.mostDeadEnds) {
+    usedStarts_.insert(kept.first);
+    return false;
+  }
+  noTurn_.insert({kept.first, level, kept.edges.back().sibling, sibling});
+  ++bans_[{level, kept.event(level)}];
+  return true;
+}
+
+std::optional<GraphPath> GraphSearch::next() {
+  GraphPath kept;
+  deadEnds_ = 0;
+  while (!spent()) {
+    if (progress) progress(static_cast<double>(kept.last()) / (levels() - 1));
+    const std::optional<GraphPath> window = bestFrom(kept);
+    if (!window) {
+      if (kept.edges.empty()) return {};
+      if (!stepBack(kept)) {
+        kept = {};
+        deadEnds_ = 0;
+      }
+      continue;
+    }
+    if (window->last() == levels() - 1) {
+      usedStarts_.insert(window->first);
+      return window;
+    }
+    const int keep = std::min(kept.last() + settings_.commit, window->last());
+    kept = *window;
+    kept.edges.resize(static_cast<std::size_t>(keep));
+  }
+  return {};
+}
+
+}  // namespace ifa

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// Branch and bound over the contact-event graph, with a horizon that moves on. IFA 5.5,
+// docs/branch-and-bound.md.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <tuple>
+#include <unordered_map>
+#include <vector>
+
+#include "graph/contact_graph.h"
+#include "planner/graph_planner_settings.h"
+#include "planner/path_connector.h"
+#include "planner/planner.h"
+
+namespace ifa {
+
+/// One edge of a path: the flight that arrives at event sibling + 1.
+struct GraphEdge {
+  std::uint32_t sibling = 0;
+  double time = 0;  ///< T*, s
+  EdgeWeight weight;
+};
+
+/// A transition, and what is known of the edge after it.
+struct GraphChild {
+  Transition transition;
+  double bound = 0;  ///< log f_v of that edge is no more
+  double worth = 0;  ///< total weight, and log f_v of that edge as far as it can be guessed
+};
+
+/// A walk through the graph that meets the signature's first events.
+struct GraphPath {
+  std::uint32_t first = 0;
+  double firstAmplitude = 1;  ///< N s
+  LogScore sound;             ///< of the first event
+  std::vector<GraphEdge> edges;
+
+  [[nodiscard]] int last() const { return static_cast<int>(edges.size()); }
+  /// Event that meets the signature's event `level`.
+  [[nodiscard]] std::uint32_t event(int level) const {
+    return level == 0 ? first : edges[static_cast<std::size_t>(level) - 1].sibling + 1;
+  }
+  /// Log of the product of all weights, and of the first event's sound.
+  [[nodiscard]] double total() const;
+};
+
+/// Finds complete paths, each from another start. Signatures of two events or more. Not thread
+/// safe; request, graph and connector must outlive it.
+class GraphSearch {
+ public:
+  /// @param stop  asked before each node is expanded; ends the search
+  GraphSearch(const PlanRequest& request, const GraphPlannerSettings& settings,
+              PathConnector& connector, std::function<bool()> stop);
+
+  /// The next complete path, all of whose connections are made; none when there is no other, or
+  /// the search was stopped, or its budget is spent.
+  [[nodiscard]] std::optional<GraphPath> next();
+  /// The longest path whose connections are made, for when there is no complete one.
+  [[nodiscard]] const GraphPath& farthest() const { return farthest_; }
+  [[nodiscard]] long queries() const { return queries_; }
+  /// Tells how much of the signature the path that is being made has met, 0 to 1.
+  std::function<void(double)> progress;
+
+ private:
+  /// Level, event before the edge, sibling: an edge that has no flight.
+  using Edge = std::tuple<int, std::uint32_t, std::uint32_t>;
+  /// First event, level, sibling by which its event was reached, sibling: an edge that must not
+  /// follow another one.
+  using Turn = std::tuple<std::uint32_t, int, std::uint32_t, std::uint32_t>;
+
+  [[nodiscard]] int levels() const;
+  [[nodiscard]] bool spent() const;
+  [[nodiscard]] std::optional<GraphPath> bestFrom(const GraphPath& kept);
+  void descend(GraphPath& path, int depth, double total);
+  void descendFromStarts(int depth);
+  [[nodiscard]] bool banned(const GraphPath& path, std::uint32_t sibling) const;
+  [[nodiscard]] const std::vector<GraphChild>& children(const GraphPath& path);
+  [[nodiscard]] std::vector<GraphChild> find(const GraphPath& path, std::size_t wanted);
+  void lookAhead(int level, GraphChild& child) const;
+  [[nodiscard]] double timeAfter(const GraphPath& path) const;
+  [[nodiscard]] bool allConnect(const GraphPath& path);
+  [[nodiscard]] bool connects(const GraphPath& path, int level);
+  bool stepBack(GraphPath& kept);
+
+  const PlanRequest& request_;
+  GraphPlannerSettings settings_;
+  PathConnector& connector_;
+  const ContactGraph& graph_;
+  std::function<bool()> stop_;
+  double lowest_ = 0;  ///< height of the centre of mass in any contact, m
+  std::vector<PathStart> starts_;
+  std::set<std::uint32_t> usedStarts_;
+  std::set<Edge> noFlight_;
+  std::set<Turn> noTurn_;
+  std::map<std::tuple<int, std::uint32_t>, std::size_t> bans_;  ///< on the way out of an event
+  std::map<std::tuple<std::uint32_t, int, std::uint32_t>, std::vector<GraphChild>> children_;
+  std::optional<GraphPath> best_;
+  double bestTotal_ = 0;
+  GraphPath farthest_;
+  long queries_ = 0;
+  int deadEnds_ = 0;
+  bool stopped_ = false;
+};
+
+}  // namespace ifa
