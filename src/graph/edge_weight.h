@@ -6,6 +6,8 @@
 #include <cstdint>
 
 #include "affinity/factors.h"
+#include "body/body.h"
+#include "database/database.h"
 #include "graph/graph_settings.h"
 #include "model/rigid_state.h"
 
@@ -35,6 +37,7 @@ enum class EdgeRefusal : std::uint8_t {
   kEnergy,       ///< f_E: it would leave with more energy than it came with
   kVelocity,     ///< log f_v too low
   kOrientation,  ///< log f_q too low
+  kTooLow,       ///< under what was asked for
 };
 
 /// Natural logarithms of the factors of an edge; 0 is perfect. What comes after a refusal, in the
@@ -57,6 +60,36 @@ struct EdgeWeight {
   [[nodiscard]] LogScore score() const {
     return {amplitude + duration + centroid, velocity + orientation + timeWarp, velocity};
   }
+};
+
+/// An event as equations 6 to 8 see it: duration filtered by the merge gap that the database was
+/// made with. @param firstAmplitude  N s
+[[nodiscard]] HeardEvent heardEvent(const EventDatabase& database, std::size_t event,
+                                    double firstAmplitude);
+
+/// Weighs the edges of one source to one target; made once for many siblings. Double precision,
+/// the same bits everywhere. Keeps references to what it is made of. Thread safe.
+class EdgeWeigher {
+ public:
+  EdgeWeigher(const EventDatabase& database, const Body& body, const GraphSettings& settings,
+              const TransitionSource& source, const TransitionTarget& target);
+
+  /// @param sibling  event j, under the database's events()
+  [[nodiscard]] EdgeWeight weigh(std::size_t sibling) const;
+  /// The same, cut short (and kTooLow) where total() cannot reach `least`.
+  [[nodiscard]] EdgeWeight weigh(std::size_t sibling, double least) const;
+
+ private:
+  [[nodiscard]] EdgeRefusal refusedUnseen(std::size_t sibling) const;
+  void weighMotion(const EventRecord& j, const EventRecord& k, EdgeWeight& weight) const;
+
+  const EventDatabase* database_;
+  const Body* body_;
+  const GraphSettings* settings_;
+  const TransitionSource* source_;
+  const TransitionTarget* target_;
+  PlausibleRegion region_;
+  double energy_;  ///< that the body may leave with, J
 };
 
 }  // namespace ifa
