@@ -115,7 +115,7 @@ Recall recallOf(const ContactGraph& graph, const std::vector<Query>& queries,
     double lost = 0;
     // What is missing counts as an edge at the cut.
     for (std::size_t i = 0; i < truth.size(); ++i)
-      lost += truth[i].total - (i < found[q].size() ? found[q][i].total : -20.0);
+      lost += std::max(0.0, truth[i].total - (i < found[q].size() ? found[q][i].total : -20.0));
     recall.lost += lost / static_cast<double>(truth.size());
     recall.bestTotal += truth[0].total;
     recall.fifth += truth.back().total;
@@ -174,6 +174,19 @@ int main(int argc, char** argv) {
     for (const auto& q : queries) n += graph->best(q.source, q.target, kBest).size();
     const double each = (now() - t) / double(count);
     const double all = double(r.queries);
+    for (const bool terminal : {false, true}) {
+      double scan = 0, find = 0, c = 0;
+      for (const auto& q : queries) {
+        if (q.target.terminal != terminal || (c >= 40)) continue;
+        const ifa::TreeQuery query(*body, settings, q.source, q.target);
+        const auto& tree = graph->tree(terminal);
+        double t0 = now(); n += tree.scan(query, kBest).size(); double t1 = now(); 
+        scan += t1 - t0; ++c;
+        t1 = now();
+        n += graph->best(q.source, q.target, kBest).size(); find += now() - t1;
+      }
+      fmt::print("  terminal {}: {} events, scan {:.2f} ms {:.1f} GB/s, find {:.0f} us, ratio {:.0f}\n", terminal, graph->tree(terminal).leaves()*32, scan/c*1e3, double(graph->tree(terminal).leaves()*32*60)/(scan/c)*1e-9, find/c*1e6, scan/find);
+    }
     fmt::print(
         "{} leaves {:5}: build {:.2f} s, complete {:.2f} %, best {:.2f} %, lost {:.4f}, best {:.2f} fifth {:.2f}, "
         "none {}; {:.1f} us/query; index {:.0f} MB, resident {:.0f} MB\n",

@@ -11,13 +11,6 @@
 
 namespace ifa {
 
-namespace {
-
-/// Finds of the tree that are weighed again in double precision, beyond those asked for.
-constexpr std::size_t kSpare = 8;
-
-}  // namespace
-
 struct ContactGraph::Parts {
   EventDatabase database;
   Body body;
@@ -48,6 +41,10 @@ Result<ContactGraph> ContactGraph::make(EventDatabase database, const Body& body
       Parts{std::move(database), body, settings, std::move(onward), std::move(ending)}));
 }
 
+const EventTree& ContactGraph::tree(bool terminal) const {
+  return terminal ? parts_->ending : parts_->onward;
+}
+
 std::vector<Transition> ContactGraph::best(const TransitionSource& source,
                                            const TransitionTarget& target,
                                            std::size_t count) const {
@@ -55,8 +52,8 @@ std::vector<Transition> ContactGraph::best(const TransitionSource& source,
   const Parts& p = *parts_;
   const EventTree& tree = target.terminal ? p.ending : p.onward;
   const EdgeWeigher weigher(p.database, p.body, p.settings, source, target);
-  auto finds = tree.find(TreeQuery(p.body, p.settings, source, target), count + kSpare,
-                         p.settings.mostLeaves);
+  auto finds =
+      tree.find(TreeQuery(p.body, p.settings, source, target), count, p.settings.mostLeaves);
   // Equal weights keep the order of their events.
   std::sort(finds.begin(), finds.end(),
             [](const TreeFind& a, const TreeFind& b) { return a.sibling < b.sibling; });
@@ -114,8 +111,7 @@ std::vector<PathStart> ContactGraph::bestStarts(double time, const HeardEvent& f
   return best.take();
 }
 
-std::vector<PathEnd> ContactGraph::bestTerminals(const HeardEvent& heard,
-                                                 std::size_t count) const {
+std::vector<PathEnd> ContactGraph::bestTerminals(const HeardEvent& heard, std::size_t count) const {
   const Parts& p = *parts_;
   const auto flags = p.database.flags();
   BestList<PathEnd> best(count);

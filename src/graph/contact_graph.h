@@ -16,6 +16,8 @@
 
 namespace ifa {
 
+class EventTree;
+
 /// An edge: the body leaves the source as event `sibling` was left, and comes to `event()`.
 struct Transition {
   std::uint32_t sibling = 0;  ///< event j of the database, most like the source
@@ -96,6 +98,8 @@ class ContactGraph {
   [[nodiscard]] const GraphSettings& settings() const;
   /// Bytes kept besides the mapped database.
   [[nodiscard]] std::size_t indexBytes() const;
+  /// The tree of the flights to terminal events, or that of all others: to measure.
+  [[nodiscard]] const EventTree& tree(bool terminal) const;
 
  private:
   struct Parts;

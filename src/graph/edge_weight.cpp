@@ -112,8 +112,8 @@ void EdgeWeigher::weighMotion(const EventRecord& j, const EventRecord& k,
     return void(weight.refusal = EdgeRefusal::kEnergy);
   const bool printed = settings_->velocityReference == VelocityReference::kPrinted;
   const Vector3d reference = printed ? (turn * sibling.velocity).eval() : from.velocity;
-  weight.velocity = logVelocity(region_.bend(
-      velocity - reference, from.angularVelocity - turn * sibling.angularVelocity));
+  weight.velocity = logVelocity(
+      region_.bend(velocity - reference, from.angularVelocity - turn * sibling.angularVelocity));
   weight.orientation = logOrientation(registration.angle, time, settings_->affinity);
   if (weight.velocity < settings_->leastVelocity) {
     weight.refusal = EdgeRefusal::kVelocity;

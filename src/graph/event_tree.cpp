@@ -20,24 +20,39 @@ struct Branch {
   }
 };
 
+constexpr float kNone = -std::numeric_limits<float>::infinity();
+/// Finds kept beyond those asked for, where rounding may have put them in the wrong order.
+constexpr std::size_t kSpare = 8;
+
 /// The best so far, best first.
 class Shortlist {
  public:
-  explicit Shortlist(std::size_t count) : count_(count) { finds_.reserve(count + 1); }
+  explicit Shortlist(std::size_t count) : count_(count) { finds_.reserve(count + kSpare + 1); }
 
-  /// What a find has to be better than.
-  [[nodiscard]] float least() const {
-    return finds_.size() < count_ ? -std::numeric_limits<float>::infinity() : finds_.back().total;
-  }
+  /// A find with less is not taken: the worst of those asked for, less what rounding does.
+  [[nodiscard]] float least() const { return least_; }
   void add(const TreeFind& find) {
-    if (finds_.size() == count_ && !(find < finds_.back())) return;
     finds_.insert(std::upper_bound(finds_.begin(), finds_.end(), find), find);
-    if (finds_.size() > count_) finds_.pop_back();
+    if (finds_.size() > count_ + kSpare) finds_.pop_back();
+    if (finds_.size() >= count_) least_ = finds_[count_ - 1].total * 1.0001F - 0.001F;
   }
-  [[nodiscard]] std::vector<TreeFind> take() { return std::move(finds_); }
+  /// Takes what is worth it of a leaf.
+  void addLeaf(const float* leaf, const TreeQuery& query) {
+    alignas(64) std::array<float, kLeafEvents> weights{};
+    weighLeaf(leaf, query, weights.data());
+    const auto* siblings =
+        reinterpret_cast<const std::uint32_t*>(leaf + kTreeColumns * kLeafEvents);
+    for (std::size_t i = 0; i < kLeafEvents; ++i)
+      if (weights[i] > kNone && weights[i] >= least_) add({weights[i], siblings[i]});
+  }
+  [[nodiscard]] std::vector<TreeFind> take() {
+    while (!finds_.empty() && finds_.back().total < least_) finds_.pop_back();
+    return std::move(finds_);
+  }
 
  private:
   std::size_t count_;
+  float least_ = kNone;
   std::vector<TreeFind> finds_;
 };
 
@@ -49,7 +64,7 @@ std::vector<TreeFind> EventTree::find(const TreeQuery& query, std::size_t count,
   if (leaves_ == 0 || count == 0) return {};
   std::priority_queue<Branch> queue;
   queue.push({0, 0});
-  alignas(64) std::array<float, kLeafEvents> weights{};
+  alignas(64) std::array<float, kFanOut> weights{};
   for (std::size_t left = mostLeaves == 0 ? leaves_ : mostLeaves; !queue.empty();) {
     const Branch branch = queue.top();
     if (branch.weight < best.least()) break;
@@ -58,23 +73,26 @@ std::vector<TreeFind> EventTree::find(const TreeQuery& query, std::size_t count,
       const TreeNode& node = nodes_[branch.child];
       weighBoxes(node, query, weights.data());
       for (std::size_t i = 0; i < kFanOut; ++i) {
-        const bool there = node.child[i] != TreeNode::kNoChild &&
-                           weights[i] > -std::numeric_limits<float>::infinity();
+        const bool there = node.child[i] != TreeNode::kNoChild && weights[i] > kNone;
         if (there && weights[i] >= best.least()) queue.push({weights[i], node.child[i]});
       }
       continue;
     }
-    const std::size_t first = (branch.child & ~TreeNode::kLeafBit) * kLeafEvents;
-    const auto* leaf = reinterpret_cast<const float*>(&events_[first]);
-    const auto* siblings = reinterpret_cast<const std::uint32_t*>(leaf + kTreeColumns * kLeafEvents);
-    weighLeaf(leaf, query, weights.data());
-    for (std::size_t i = 0; i < kLeafEvents; ++i) {
-      if (weights[i] > -std::numeric_limits<float>::infinity() && weights[i] >= best.least())
-        best.add({weights[i], siblings[i]});
-    }
+    best.addLeaf(leaf(branch.child & ~TreeNode::kLeafBit), query);
     if (--left == 0) break;
   }
   return best.take();
+}
+
+std::vector<TreeFind> EventTree::scan(const TreeQuery& query, std::size_t count) const {
+  if (count == 0) return {};
+  Shortlist best(count);
+  for (std::size_t i = 0; i < leaves_; ++i) best.addLeaf(leaf(i), query);
+  return best.take();
+}
+
+const float* EventTree::leaf(std::size_t number) const {
+  return reinterpret_cast<const float*>(&events_[number * kLeafEvents]);
 }
 
 std::size_t EventTree::bytes() const {

@@ -21,9 +21,9 @@ struct TreeEvent {
 
 /// How the axes of the space compare, for choosing where to split; no result depends on them.
 struct TreeScales {
-  float velocity = 1;   ///< typical half-axis of eq. 2's linear part per speed
-  float spin = 1;       ///< of the angular part per spin
-  float amplitude = 1;  ///< N s
+  float velocity = 1;    ///< typical half-axis of eq. 2's linear part per speed
+  float spin = 1;        ///< of the angular part per spin
+  float amplitude = 1;   ///< N s
   float sound = 0.012F;  ///< durations and centroids, s
 };
 
@@ -46,15 +46,18 @@ class EventTree {
   /// number.
   EventTree(std::vector<TreeEvent> events, const TreeScales& scales);
 
-  /// The best `count` finds, best first. Looks into at most `mostLeaves` leaves (0: all that may
-  /// hold one), the most promising first.
+  /// The best `count` finds, and some that may be as good, best first. Looks into at most
+  /// `mostLeaves` leaves (0: all that may hold one), the most promising first.
   [[nodiscard]] std::vector<TreeFind> find(const TreeQuery& query, std::size_t count,
                                            std::size_t mostLeaves) const;
+  /// The same by looking into every leaf, one after another: as fast as all can be read.
+  [[nodiscard]] std::vector<TreeFind> scan(const TreeQuery& query, std::size_t count) const;
   [[nodiscard]] std::size_t leaves() const { return leaves_; }
   [[nodiscard]] std::size_t bytes() const;
 
  private:
   friend class TreeBuilder;
+  [[nodiscard]] const float* leaf(std::size_t number) const;
 
   std::size_t leaves_ = 0;
   /// Leaf after leaf, each column after column: kLeafEvents values each, then the siblings.

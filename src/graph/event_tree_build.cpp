@@ -22,6 +22,14 @@ constexpr std::uint32_t kNobody = 0xFFFFFFFFU;
 
 std::size_t leavesOf(std::size_t events) { return (events + kLeafEvents - 1) / kLeafEvents; }
 
+/// Leaves of each child of a node over so many, the last child's apart: a power of the fan-out, so
+/// that nodes are full.
+std::size_t childLeaves(std::size_t leaves) {
+  std::size_t unit = 1;
+  while (unit * kFanOut < leaves) unit *= kFanOut;
+  return unit;
+}
+
 /// Means and standard deviations of a range, from some of it.
 struct Spread {
   std::array<float, kTreeAxes> mean{}, deviation{};
@@ -60,7 +68,7 @@ std::size_t widestAxis(std::span<const TreeEvent> events, const TreeScales& scal
   const Spread spread(events);
   const float time = std::max(spread.mean[kTime], 1e-3F);
   const auto unit = [&](std::size_t axis) {
-    if (axis <= kUpZ) return std::min(time, 0.2F);
+    if (axis <= kUpZ) return 0.7F * std::min(time, 0.2F);
     if (axis <= kFlightZ) return scales.velocity * lengthOf(spread, kFlightX);
     if (axis <= kSpinZ) return scales.spin * lengthOf(spread, kSpinX);
     if (axis == kTime) return 0.1F * time;
@@ -81,17 +89,19 @@ std::size_t widestAxis(std::span<const TreeEvent> events, const TreeScales& scal
 /// Sorts so that the first `leaves` leaves hold what is lower along the widest axis.
 void halve(std::span<TreeEvent> events, std::size_t leaves, const TreeScales& scales) {
   const std::size_t axis = widestAxis(events, scales);
-  std::nth_element(events.begin(), events.begin() + static_cast<std::ptrdiff_t>(leaves * kLeafEvents),
-                   events.end(), [axis](const TreeEvent& a, const TreeEvent& b) {
+  std::nth_element(events.begin(),
+                   events.begin() + static_cast<std::ptrdiff_t>(leaves * kLeafEvents), events.end(),
+                   [axis](const TreeEvent& a, const TreeEvent& b) {
                      const float x = a.values[axis], y = b.values[axis];
                      return x != y ? x < y : a.sibling < b.sibling;
                    });
 }
 
-/// Puts whole ranges into the order of their leaves.
+/// Puts a range into the order of its leaves, by halving the children of its node, then theirs.
 void sortRange(std::span<TreeEvent> events, const TreeScales& scales) {
   if (events.size() <= kLeafEvents) return;
-  const std::size_t low = leavesOf(events.size()) / 2;
+  const std::size_t leaves = leavesOf(events.size()), unit = childLeaves(leaves);
+  const std::size_t low = (leaves + unit - 1) / unit / 2 * unit;
   halve(events, low, scales);
   const auto left = [&] { sortRange(events.first(low * kLeafEvents), scales); };
   const auto right = [&] { sortRange(events.subspan(low * kLeafEvents), scales); };
@@ -105,7 +115,7 @@ void sortRange(std::span<TreeEvent> events, const TreeScales& scales) {
 
 }  // namespace
 
-/// Makes the nodes over sorted events. Ranges are halved just as sortRange did it.
+/// Makes the nodes over sorted events. Ranges are parted as sortRange did it.
 class TreeBuilder {
  public:
   explicit TreeBuilder(EventTree& tree) : tree_(tree) {}
@@ -142,23 +152,12 @@ class TreeBuilder {
 
   /// Node `node` over leaves first to first + count - 1.
   void fill(std::size_t node, std::size_t first, std::size_t count) {
-    std::vector<Child> children = {{first, count}};
-    for (std::size_t width = 1; width < kFanOut; width *= 2) {
-      std::vector<Child> halves;
-      for (const Child& c : children) {
-        if (c.leaves == 1) {
-          halves.push_back(c);
-          continue;
-        }
-        halves.push_back({c.first, c.leaves / 2});
-        halves.push_back({c.first + c.leaves / 2, c.leaves - c.leaves / 2});
-      }
-      children = std::move(halves);
-    }
     tree_.nodes_[node].child.fill(TreeNode::kNoChild);
     for (auto& row : tree_.nodes_[node].low) row.fill(0);
     for (auto& row : tree_.nodes_[node].high) row.fill(0);
-    for (std::size_t i = 0; i < children.size(); ++i) addChild(node, i, children[i]);
+    const std::size_t unit = childLeaves(count);
+    for (std::size_t i = 0; i * unit < count; ++i)
+      addChild(node, i, {first + i * unit, std::min(unit, count - i * unit)});
   }
 
   void addChild(std::size_t node, std::size_t i, const Child& child) {

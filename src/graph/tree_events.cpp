@@ -119,9 +119,9 @@ TreeScales treeScales(const EventDatabase& database, const AffinityParameters& p
     return size * std::cbrt(tangent * tangent);
   };
   TreeScales scales;
-  scales.velocity =
-      static_cast<float>(typical(p.maxRelativeLinear, p.tanLinear) * change / speed);
-  scales.spin = static_cast<float>(typical(p.maxRelativeAngular, p.tanAngular) * turn / spin);
+  scales.velocity = static_cast<float>(typical(p.maxRelativeLinear, p.tanLinear) * change / speed);
+  // Fewer cuts across the spin serve better than its narrow region suggests: measured.
+  scales.spin = static_cast<float>(4 * typical(p.maxRelativeAngular, p.tanAngular) * turn / spin);
   scales.amplitude =
       static_cast<float>((reference > 0 ? reference : loud / count) / std::sqrt(p.amplitude));
   scales.sound = static_cast<float>(1 / std::sqrt(p.duration));

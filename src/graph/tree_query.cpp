@@ -79,100 +79,134 @@ IFA_INLINE float clamped(float x, float low, float high) {
   return std::min(std::max(x, low), high);
 }
 
-/// Least value of the form with its axis turned to `axis` over v in a box: three sweeps over the
-/// coordinates.
-IFA_INLINE float leastInBox(const RegionForm& form, Triple axis, Triple low, Triple high) {
-  Triple v = {clamped(0, low.x, high.x), clamped(0, low.y, high.y), clamped(0, low.z, high.z)};
+/// Range of a vector.
+struct Box {
+  Triple low, high;
+};
+
+/// Least value of the form with its axis turned to `axis` over v in a box: sweeps over the
+/// coordinates, from the place nearest to 0.
+IFA_INLINE float leastInBox(const RegionForm& form, Triple axis, const Box& box) {
+  Triple v = {clamped(0, box.low.x, box.high.x), clamped(0, box.low.y, box.high.y),
+              clamped(0, box.low.z, box.high.z)};
   const float d = form.difference;
   const float ix = d / (form.across - d * axis.x * axis.x) * axis.x;
   const float iy = d / (form.across - d * axis.y * axis.y) * axis.y;
   const float iz = d / (form.across - d * axis.z * axis.z) * axis.z;
   for (int sweep = 0; sweep < 2; ++sweep) {
-    v.x = clamped(ix * (axis.y * v.y + axis.z * v.z), low.x, high.x);
-    v.y = clamped(iy * (axis.x * v.x + axis.z * v.z), low.y, high.y);
-    v.z = clamped(iz * (axis.x * v.x + axis.y * v.y), low.z, high.z);
+    v.x = clamped(ix * (axis.y * v.y + axis.z * v.z), box.low.x, box.high.x);
+    v.y = clamped(iy * (axis.x * v.x + axis.z * v.z), box.low.y, box.high.y);
+    v.z = clamped(iz * (axis.x * v.x + axis.y * v.y), box.low.z, box.high.z);
   }
   const float along = dot(axis, v);
   return form.across * dot(v, v) - d * along * along;
 }
 
+/// -log f_t.
+IFA_INLINE float warpCost(float own, const TreeQuery& q) {
+  const float ratio = own / q.time;
+  return q.timeWarp * squared(std::max(ratio, 1 / ratio) - 1);
+}
+
+/// -log f_a f_l f_c.
+IFA_INLINE float soundCost(float loud, float duration, float centroid, const TreeQuery& q) {
+  return q.loudness * squared(loud - q.loud) +
+         q.sound * (squared(duration - q.duration) + squared(centroid - q.centroid));
+}
+
+/// -log f_q. @param turn2  square of the angle
+IFA_INLINE float orientationCost(float turn2, float time, const TreeQuery& q) {
+  return q.orientation * turn2 / squared(std::min(time, q.longTime));
+}
+
+IFA_INLINE float chord2(Triple a, Triple b) {
+  return squared(a.x - b.x) + squared(a.y - b.y) + squared(a.z - b.z);
+}
+
+IFA_INLINE Triple column3(const float* e, std::size_t column) {
+  constexpr std::size_t n = kLeafEvents;
+  return {e[column * n], e[(column + 1) * n], e[(column + 2) * n]};
+}
+
 IFA_INLINE float weighEvent(const float* e, const TreeQuery& q) {
   constexpr std::size_t n = kLeafEvents;
-  const Triple up = {e[kUpX * n], e[kUpY * n], e[kUpZ * n]}, onto = triple(q.up);
+  const Triple up = column3(e, kUpX), onto = triple(q.up), own = column3(e, kSpinX);
   const ShortTurn turn(up, onto);
-  const float own = e[kTime * n], time = q.fixedTime + q.ownTime * own, rate = 1 / time;
-  const Triple mean = {e[kFlightX * n], e[kFlightY * n], e[kFlightZ * n]};
-  const Triple flight = turn * mean;
-  const Triple spin = turn * Triple{e[kSpinX * n], e[kSpinY * n], e[kSpinZ * n]};
-  const float lower = e[kHeight * n] - q.height, half = 0.5F * kGravityF;
-  // v_blend = stretch flight + lift up
-  const float stretch = own * rate, lift = lower * rate + half * time;
+  const float gap = e[kTime * n], time = q.fixedTime + q.ownTime * gap, rate = 1 / time;
+  const Triple flight = turn * column3(e, kFlightX), spin = turn * own;
+  // v_blend = stretch flight + lift up; v_{j+} = flight + fall up
+  const float stretch = gap * rate;
+  const float lift = (e[kHeight * n] - q.height) * rate + 0.5F * kGravityF * time;
   const Triple leaving = {stretch * flight.x + lift * onto.x, stretch * flight.y + lift * onto.y,
                           stretch * flight.z + lift * onto.z};
-  const float fall = half * own * q.keepOwn;
-  const Triple bent = {leaving.x - q.keepSource * q.velocity[0] - q.keepOwn * flight.x - fall * onto.x,
-                       leaving.y - q.keepSource * q.velocity[1] - q.keepOwn * flight.y - fall * onto.y,
-                       leaving.z - q.keepSource * q.velocity[2] - q.keepOwn * flight.z - fall * onto.z};
+  const float keep = q.keepOwn, fall = 0.5F * kGravityF * gap * keep;
+  const Triple bent = {leaving.x - q.keepSource * q.velocity[0] - keep * flight.x - fall * onto.x,
+                       leaving.y - q.keepSource * q.velocity[1] - keep * flight.y - fall * onto.y,
+                       leaving.z - q.keepSource * q.velocity[2] - keep * flight.z - fall * onto.z};
   const Triple spun = {q.spin[0] - spin.x, q.spin[1] - spin.y, q.spin[2] - spin.z};
   const float velocity = formAt(q.linear, bent) + formAt(q.angular, spun);
-  const float chord2 =
-      squared(up.x - onto.x) + squared(up.y - onto.y) + squared(up.z - onto.z);
-  const float shortTime = std::min(time, q.longTime);
-  const float orientation = q.orientation * squaredAngle(chord2) / (shortTime * shortTime);
-  const float ratio = own / q.time, warp = std::max(ratio, 1 / ratio) - 1;
-  const float sum = velocity + orientation + q.timeWarp * warp * warp +
-                    q.loudness * squared(e[kHeardLoud * n] - q.loud) +
-                    q.sound * (squared(e[kHeardDuration * n] - q.duration) +
-                               squared(e[kHeardCentroid * n] - q.centroid));
-  const float speed2 = dot(leaving, leaving) + q.moments[0] * squared(e[kSpinX * n]) +
-                       q.moments[1] * squared(e[kSpinY * n]) + q.moments[2] * squared(e[kSpinZ * n]);
+  const float orientation = orientationCost(squaredAngle(chord2(up, onto)), time, q);
+  const float sum = velocity + orientation + warpCost(gap, q) +
+                    soundCost(e[kHeardLoud * n], e[kHeardDuration * n], e[kHeardCentroid * n], q);
+  const float speed2 = dot(leaving, leaving) + q.moments[0] * own.x * own.x +
+                       q.moments[1] * own.y * own.y + q.moments[2] * own.z * own.z;
   const float rising = dot(leaving, onto) - kGravityF * time;
   const bool there = (velocity <= q.leastVelocity) & (orientation <= q.leastOrientation) &
                      (speed2 <= q.squaredSpeed) & (rising <= 1e-4F);
   return there ? -sum : -kInfinity;
 }
 
-IFA_INLINE float weighBox(const TreeNode& b, std::size_t i, const TreeQuery& q) {
-  const Triple onto = triple(q.up);
-  Triple near = {clamped(onto.x, b.low[kUpX][i], b.high[kUpX][i]),
-                 clamped(onto.y, b.low[kUpY][i], b.high[kUpY][i]),
-                 clamped(onto.z, b.low[kUpZ][i], b.high[kUpZ][i])};
-  const float chord2 =
-      squared(near.x - onto.x) + squared(near.y - onto.y) + squared(near.z - onto.z);
-  const float unit = 1 / std::sqrt(dot(near, near) + 1e-12F);
-  near = {near.x * unit, near.y * unit, near.z * unit};
-  const ShortTurn turn(onto, near);
-  const float own = clamped(q.time, b.low[kTime][i], b.high[kTime][i]);
-  const float time = q.fixedTime + q.ownTime * own, squeeze = time / own;
-  const float shortTime = std::min(time, q.longTime);
-  const float orientation = q.orientation * chord2 / (shortTime * shortTime);
+/// A child's range of the vector in three columns, less `less`, widened by `play`.
+IFA_INLINE Box rangeOf(const TreeNode& b, std::size_t i, std::size_t column, Triple less,
+                       float play) {
+  return {{b.low[column][i] - less.x - play, b.low[column + 1][i] - less.y - play,
+           b.low[column + 2][i] - less.z - play},
+          {b.high[column][i] - less.x + play, b.high[column + 1][i] - less.y + play,
+           b.high[column + 2][i] - less.z + play}};
+}
+
+IFA_INLINE float nearestIn(const TreeNode& b, std::size_t i, std::size_t column, float x) {
+  return clamped(x, b.low[column][i], b.high[column][i]);
+}
+
+/// Least cost of the angular part. The turn that lays j over i is that of the place in the box
+/// nearest to the query; how far the spin may turn between places of the box is added to its range.
+IFA_INLINE float angularCost(const TreeNode& b, std::size_t i, const TreeQuery& q,
+                             const ShortTurn& turn) {
+  const Triple low = {b.low[kUpX][i], b.low[kUpY][i], b.low[kUpZ][i]};
+  const Triple high = {b.high[kUpX][i], b.high[kUpY][i], b.high[kUpZ][i]};
+  const float reach = std::min(0.5F * std::sqrt(chord2(low, high)), 0.5F);
   const Triple spin = turn * triple(q.spin);
-  const float angular = leastInBox(
-      q.angular, turn * triple(q.angular.axis),
-      {b.low[kSpinX][i] - spin.x, b.low[kSpinY][i] - spin.y, b.low[kSpinZ][i] - spin.z},
-      {b.high[kSpinX][i] - spin.x, b.high[kSpinY][i] - spin.y, b.high[kSpinZ][i] - spin.z});
-  const float fall = 0.5F * kGravityF * time;
+  const float play = reach * std::sqrt(dot(spin, spin));
+  return leastInBox(q.angular, turn * triple(q.angular.axis), rangeOf(b, i, kSpinX, spin, play));
+}
+
+/// Likewise of the linear part. The turn matters less here: velocities are bent by more.
+IFA_INLINE float linearCost(const TreeNode& b, std::size_t i, const TreeQuery& q,
+                            const ShortTurn& turn, float time, float own) {
+  const Triple onto = triple(q.up);
+  const float fall = 0.5F * kGravityF * time, squeeze = time / own;
   const Triple ask = turn * Triple{q.velocity[0] - fall * onto.x, q.velocity[1] - fall * onto.y,
                                    q.velocity[2] - fall * onto.z};
   const Triple mean = {ask.x * squeeze, ask.y * squeeze, ask.z * squeeze};
-  const float linear =
-      leastInBox(q.linear, turn * triple(q.linear.axis),
-                 {b.low[kFlightX][i] - mean.x, b.low[kFlightY][i] - mean.y,
-                  b.low[kFlightZ][i] - mean.z},
-                 {b.high[kFlightX][i] - mean.x, b.high[kFlightY][i] - mean.y,
-                  b.high[kFlightZ][i] - mean.z}) *
-      q.keepSource / (squeeze * squeeze);
-  const float ratio = own / q.time, warp = std::max(ratio, 1 / ratio) - 1;
-  const float loud = clamped(q.loud, b.low[kHeardLoud][i], b.high[kHeardLoud][i]) - q.loud;
-  const float duration =
-      clamped(q.duration, b.low[kHeardDuration][i], b.high[kHeardDuration][i]) - q.duration;
-  const float centroid =
-      clamped(q.centroid, b.low[kHeardCentroid][i], b.high[kHeardCentroid][i]) - q.centroid;
-  const float sum = linear + angular + orientation + q.timeWarp * warp * warp +
-                    q.loudness * loud * loud +
-                    q.sound * (duration * duration + centroid * centroid);
-  const bool there =
-      (linear + angular <= q.leastVelocity) & (orientation <= q.leastOrientation);
+  return q.keepSource / squared(squeeze) *
+         leastInBox(q.linear, turn * triple(q.linear.axis), rangeOf(b, i, kFlightX, mean, 0));
+}
+
+IFA_INLINE float weighBox(const TreeNode& b, std::size_t i, const TreeQuery& q) {
+  const Triple onto = triple(q.up);
+  const Triple near = {nearestIn(b, i, kUpX, onto.x), nearestIn(b, i, kUpY, onto.y),
+                       nearestIn(b, i, kUpZ, onto.z)};
+  const float unit = 1 / std::sqrt(dot(near, near) + 1e-12F);
+  const ShortTurn turn(onto, {near.x * unit, near.y * unit, near.z * unit});
+  const float own = nearestIn(b, i, kTime, q.time), time = q.fixedTime + q.ownTime * own;
+  const float velocity = angularCost(b, i, q, turn) + linearCost(b, i, q, turn, time, own);
+  const float orientation = orientationCost(chord2(near, onto), time, q);
+  const float sum =
+      velocity + orientation + warpCost(own, q) +
+      soundCost(nearestIn(b, i, kHeardLoud, q.loud), nearestIn(b, i, kHeardDuration, q.duration),
+                nearestIn(b, i, kHeardCentroid, q.centroid), q);
+  const bool there = (velocity <= q.leastVelocity) & (orientation <= q.leastOrientation);
   return there ? -sum : -kInfinity;
 }
 
@@ -213,10 +247,9 @@ TreeQuery::TreeQuery(const Body& body, const GraphSettings& settings,
   const Vector3d perMass = body.principalMoments / body.mass;
   const double before = source.before.velocity.squaredNorm() + w.dot(perMass.cwiseProduct(w)) +
                         2 * kGravity * source.before.position.z();
-  squaredSpeed = real((before * (1 + settings.energyGain) -
-                       2 * kGravity * source.after.position.z()) *
-                          kWidened +
-                      1e-5);
+  squaredSpeed = real(
+      (before * (1 + settings.energyGain) - 2 * kGravity * source.after.position.z()) * kWidened +
+      1e-5);
   moments = rounded(perMass);
 }
 

@@ -47,7 +47,7 @@ struct alignas(64) TreeNode {
 /// v' A v for a plausible region: across |v|^2 - (across - along) (axis . v)^2.
 struct RegionForm {
   std::array<float, 3> axis{};
-  float across = 0;     ///< 1 / half-axis^2 across the change
+  float across = 0;      ///< 1 / half-axis^2 across the change
   float difference = 0;  ///< across less that along it
 };
 
@@ -65,9 +65,9 @@ struct TreeQuery {
   float orientation, longTime;  ///< c_q and T_0 of eq. 4
   float timeWarp;               ///< c_t
   float loud, loudness;         ///< amplitude asked for, N s, and c_a / (N s)^2
-  float duration, centroid, sound;  ///< s, and c_Delta
+  float duration, centroid, sound;        ///< s, and c_Delta
   float leastVelocity, leastOrientation;  ///< as positive numbers, widened by rounding
-  float squaredSpeed;  ///< energy to leave with, as the square of a speed; likewise
+  float squaredSpeed;            ///< energy to leave with, as the square of a speed; likewise
   std::array<float, 3> moments;  ///< over the mass, m^2
 };
 
