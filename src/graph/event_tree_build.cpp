@@ -32,20 +32,20 @@ std::size_t childLeaves(std::size_t leaves) {
 
 /// Means and standard deviations of a range, from some of it.
 struct Spread {
-  std::array<float, kTreeAxes> mean{}, deviation{};
+  std::array<float, kTreeColumns> mean{}, deviation{};
 
   explicit Spread(std::span<const TreeEvent> events) {
     const std::size_t stride = std::max<std::size_t>(1, events.size() / kSample);
-    std::array<double, kTreeAxes> sum{}, squares{};
+    std::array<double, kTreeColumns> sum{}, squares{};
     double count = 0;
     for (std::size_t i = 0; i < events.size(); i += stride, ++count) {
-      for (std::size_t a = 0; a < kTreeAxes; ++a) {
+      for (std::size_t a = 0; a < kTreeColumns; ++a) {
         const double x = coordinate(events[i], a);
         sum[a] += x;
         squares[a] += x * x;
       }
     }
-    for (std::size_t a = 0; a < kTreeAxes; ++a) {
+    for (std::size_t a = 0; a < kTreeColumns; ++a) {
       const double m = sum[a] / count;
       mean[a] = static_cast<float>(m);
       deviation[a] = static_cast<float>(std::sqrt(std::max(0.0, squares[a] / count - m * m)));
@@ -76,7 +76,7 @@ std::size_t widestAxis(std::span<const TreeEvent> events, const TreeScales& scal
   };
   std::size_t widest = 0;
   float most = -1;
-  for (std::size_t axis = 0; axis < kTreeAxes; ++axis) {
+  for (std::size_t axis = 0; axis < kHeight; ++axis) {
     const float width = spread.deviation[axis] / std::max(unit(axis), 1e-12F);
     if (width > most) {
       most = width;
@@ -161,7 +161,7 @@ class TreeBuilder {
   }
 
   void addChild(std::size_t node, std::size_t i, const Child& child) {
-    std::array<float, kTreeAxes> low, high;
+    std::array<float, kTreeColumns> low, high;
     if (child.leaves == 1) {
       boxOfLeaf(child.first, low, high);
       tree_.nodes_[node].child[i] = static_cast<std::uint32_t>(child.first) | TreeNode::kLeafBit;
@@ -172,13 +172,13 @@ class TreeBuilder {
       tree_.nodes_[node].child[i] = static_cast<std::uint32_t>(below);
       boxOfNode(tree_.nodes_[below], low, high);
     }
-    for (std::size_t a = 0; a < kTreeAxes; ++a) {
+    for (std::size_t a = 0; a < kTreeColumns; ++a) {
       tree_.nodes_[node].low[a][i] = low[a];
       tree_.nodes_[node].high[a][i] = high[a];
     }
   }
 
-  using Bounds = std::array<float, kTreeAxes>;
+  using Bounds = std::array<float, kTreeColumns>;
 
   void boxOfLeaf(std::size_t leaf, Bounds& low, Bounds& high) const {
     low.fill(std::numeric_limits<float>::max());
@@ -186,7 +186,7 @@ class TreeBuilder {
     for (std::size_t i = 0; i < kLeafEvents; ++i) {
       const TreeEvent& event = tree_.events_[leaf * kLeafEvents + i];
       if (event.sibling == kNobody) break;
-      for (std::size_t a = 0; a < kTreeAxes; ++a) {
+      for (std::size_t a = 0; a < kTreeColumns; ++a) {
         low[a] = std::min(low[a], event.values[a]);
         high[a] = std::max(high[a], event.values[a]);
       }
@@ -194,7 +194,7 @@ class TreeBuilder {
   }
 
   static void boxOfNode(const TreeNode& node, Bounds& low, Bounds& high) {
-    for (std::size_t a = 0; a < kTreeAxes; ++a) {
+    for (std::size_t a = 0; a < kTreeColumns; ++a) {
       low[a] = node.low[a][0];
       high[a] = node.high[a][0];
       for (std::size_t i = 1; i < kFanOut && node.child[i] != TreeNode::kNoChild; ++i) {

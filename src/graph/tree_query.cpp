@@ -185,12 +185,20 @@ IFA_INLINE float angularCost(const TreeNode& b, std::size_t i, const TreeQuery& 
 IFA_INLINE float linearCost(const TreeNode& b, std::size_t i, const TreeQuery& q,
                             const ShortTurn& turn, float time, float own) {
   const Triple onto = triple(q.up);
-  const float fall = 0.5F * kGravityF * time, squeeze = time / own;
-  const Triple ask = turn * Triple{q.velocity[0] - fall * onto.x, q.velocity[1] - fall * onto.y,
-                                   q.velocity[2] - fall * onto.z};
+  const float half = 0.5F * (b.high[kHeight][i] - b.low[kHeight][i]);
+  const float lower = b.low[kHeight][i] + half - q.height;
+  const float squeeze = time / own, lift = lower / time + 0.5F * kGravityF * time;
+  const Triple ask = turn * Triple{q.velocity[0] - lift * onto.x, q.velocity[1] - lift * onto.y,
+                                   q.velocity[2] - lift * onto.z};
   const Triple mean = {ask.x * squeeze, ask.y * squeeze, ask.z * squeeze};
+  // Other heights in the box, and other times where the flight lasts T_j, lift otherwise.
+  const float least = q.fixedTime + q.ownTime * b.low[kTime][i];
+  const float most = q.fixedTime + q.ownTime * b.high[kTime][i];
+  const float play =
+      half / least + std::abs(lower) * (1 / least - 1 / time) + 0.5F * kGravityF * (most - least);
   return q.keepSource / squared(squeeze) *
-         leastInBox(q.linear, turn * triple(q.linear.axis), rangeOf(b, i, kFlightX, mean, 0));
+         leastInBox(q.linear, turn * triple(q.linear.axis),
+                    rangeOf(b, i, kFlightX, mean, play * squeeze));
 }
 
 IFA_INLINE float weighBox(const TreeNode& b, std::size_t i, const TreeQuery& q) {

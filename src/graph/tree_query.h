@@ -27,17 +27,15 @@ enum TreeColumn : std::size_t {
   kHeardLoud,      ///< amplitude of k, N s
   kHeardDuration,  ///< filtered, s
   kHeardCentroid,  ///< s; 0 where the duration is
-  kHeight,         ///< of j+, m; not a coordinate: it only completes the weight
+  kHeight,         ///< of j+, m
   kTreeColumns
 };
-/// Columns that boxes bound.
-inline constexpr std::size_t kTreeAxes = kHeight;
 inline constexpr std::size_t kLeafEvents = 32;
 inline constexpr std::size_t kFanOut = 16;
 
 /// Boxes around up to kFanOut children.
 struct alignas(64) TreeNode {
-  std::array<std::array<float, kFanOut>, kTreeAxes> low, high;
+  std::array<std::array<float, kFanOut>, kTreeColumns> low, high;
   /// Number of a node, or of a leaf with kLeafBit; kNoChild where there is none.
   std::array<std::uint32_t, kFanOut> child;
 
