@@ -6,6 +6,7 @@
 
 #include "connection/linear_connection.h"
 #include "connection/registration.h"
+#include "connection/time_warp.h"
 
 namespace ifa {
 
@@ -62,8 +63,11 @@ EdgeRefusal EdgeWeigher::refusedUnseen(std::size_t sibling) const {
   if (sibling + 1 >= flags.size()) return EdgeRefusal::kNotFlight;  // a damaged file
   const bool terminal = (flags[sibling + 1] & EventRecord::kTerminal) != 0;
   if (terminal != target_->terminal) return EdgeRefusal::kEnd;
-  const bool timed = target_->time > 0 && database_->values(kGap)[sibling] > 0;
-  return timed ? EdgeRefusal::kNone : EdgeRefusal::kTime;
+  const double own = database_->values(kGap)[sibling];
+  if (!(target_->time > 0) || !(own > 0)) return EdgeRefusal::kTime;
+  const bool warped = settings_->connection == ConnectionKind::kBlend &&
+                      !(TimeWarp{own, target_->time}.amount() < settings_->largestWarp);
+  return warped ? EdgeRefusal::kTime : EdgeRefusal::kNone;
 }
 
 EdgeWeight EdgeWeigher::weigh(std::size_t sibling) const {

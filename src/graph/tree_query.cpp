@@ -146,13 +146,14 @@ IFA_INLINE float weighEvent(const float* e, const TreeQuery& q) {
   const Triple spun = {q.spin[0] - spin.x, q.spin[1] - spin.y, q.spin[2] - spin.z};
   const float velocity = formAt(q.linear, bent) + formAt(q.angular, spun);
   const float orientation = orientationCost(squaredAngle(chord2(up, onto)), time, q);
-  const float sum = velocity + orientation + warpCost(gap, q) +
+  const float warp = warpCost(gap, q);
+  const float sum = velocity + orientation + warp +
                     soundCost(e[kHeardLoud * n], e[kHeardDuration * n], e[kHeardCentroid * n], q);
   const float speed2 = dot(leaving, leaving) + q.moments[0] * own.x * own.x +
                        q.moments[1] * own.y * own.y + q.moments[2] * own.z * own.z;
   const float rising = dot(leaving, onto) - kGravityF * time;
   const bool there = (velocity <= q.leastVelocity) & (orientation <= q.leastOrientation) &
-                     (speed2 <= q.squaredSpeed) & (rising <= 1e-4F);
+                     (speed2 <= q.squaredSpeed) & (rising <= 1e-4F) & (warp <= q.mostWarp);
   return there ? -sum : -kInfinity;
 }
 
@@ -209,12 +210,15 @@ IFA_INLINE float weighBox(const TreeNode& b, std::size_t i, const TreeQuery& q) 
   const ShortTurn turn(onto, {near.x * unit, near.y * unit, near.z * unit});
   const float own = nearestIn(b, i, kTime, q.time), time = q.fixedTime + q.ownTime * own;
   const float velocity = angularCost(b, i, q, turn) + linearCost(b, i, q, turn, time, own);
-  const float orientation = orientationCost(chord2(near, onto), time, q);
+  const float longest = q.fixedTime + q.ownTime * b.high[kTime][i];
+  const float orientation = orientationCost(chord2(near, onto), longest, q);
+  const float warp = warpCost(own, q);
   const float sum =
-      velocity + orientation + warpCost(own, q) +
+      velocity + orientation + warp +
       soundCost(nearestIn(b, i, kHeardLoud, q.loud), nearestIn(b, i, kHeardDuration, q.duration),
                 nearestIn(b, i, kHeardCentroid, q.centroid), q);
-  const bool there = (velocity <= q.leastVelocity) & (orientation <= q.leastOrientation);
+  const bool there =
+      (velocity <= q.leastVelocity) & (orientation <= q.leastOrientation) & (warp <= q.mostWarp);
   return there ? -sum : -kInfinity;
 }
 
@@ -244,6 +248,8 @@ TreeQuery::TreeQuery(const Body& body, const GraphSettings& settings,
   orientation = real(p.orientation);
   longTime = real(p.orientationTime);
   timeWarp = real(p.timeWarp);
+  mostWarp =
+      exact ? kInfinity : real(p.timeWarp * settings.largestWarp * settings.largestWarp * kWidened);
   loud = real(target.heard.amplitude * target.firstAmplitude);
   loudness = real(p.amplitude / (target.firstAmplitude * target.firstAmplitude));
   duration = real(target.heard.duration);

@@ -61,7 +61,7 @@ struct TreeQuery {
   float fixedTime, ownTime;     ///< of the flight: fixedTime + ownTime T_j
   float keepSource, keepOwn;    ///< 1 and 0, or 0 and 1 where v_{j+} is what eq. 3 compares with
   float orientation, longTime;  ///< c_q and T_0 of eq. 4
-  float timeWarp;               ///< c_t
+  float timeWarp, mostWarp;     ///< c_t, and the largest -log f_t that can be shown
   float loud, loudness;         ///< amplitude asked for, N s, and c_a / (N s)^2
   float duration, centroid, sound;        ///< s, and c_Delta
   float leastVelocity, leastOrientation;  ///< as positive numbers, widened by rounding
