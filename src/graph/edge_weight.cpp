@@ -102,12 +102,14 @@ void EdgeWeigher::weighMotion(const EventRecord& j, const EventRecord& k,
   const double time = settings_->connection == ConnectionKind::kExact ? target_->time : j.gap;
   const Registration registration = registerState(sibling, from);
   const Eigen::Quaterniond turn = registration.transform.turn();
-  const Vector3d flown(j.next[0] - j.shift[0], j.next[1] - j.shift[1], 0);
+  const Vector3d flown(j.next[0] - sibling.position.x(), j.next[1] - sibling.position.y(), 0);
   Vector3d to = from.position + turn * flown;
   to.z() = k.before.height;
   const Vector3d velocity = linearConnection(from.position, to, time);
-  // Decision: a flight that would come to k's pose while still rising has been through the ground.
-  if (velocity.z() - kGravity * time > 0) return void(weight.refusal = EdgeRefusal::kRising);
+  // Decision: a body that is still rising when it comes to k's pose has most likely been through
+  // the ground; but not where its spin drives a corner down, as it did when k was simulated.
+  const bool rising = velocity.z() - kGravity * time > 0 && !(k.before.velocity[2] > 0);
+  if (rising) return void(weight.refusal = EdgeRefusal::kRising);
   // Decision: the spin is j's, as printed; omega_blend is not known yet (5.5, lazy blends).
   const double leaving =
       energyOf(*body_, velocity, sibling.orientation.conjugate() * sibling.angularVelocity,

@@ -33,7 +33,7 @@ enum class EdgeRefusal : std::uint8_t {
   kNotFlight,    ///< no event follows the sibling, or what leads there is silent contact
   kEnd,          ///< f_end: just one of target and event is terminal
   kTime,         ///< a time is not above 0, or T_j is too far from T* to be warped
-  kRising,       ///< the body would arrive on its way up
+  kRising,       ///< the body would arrive on its way up, which it did not when simulated
   kEnergy,       ///< f_E: it would leave with more energy than it came with
   kVelocity,     ///< log f_v too low
   kOrientation,  ///< log f_q too low

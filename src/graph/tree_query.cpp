@@ -151,9 +151,11 @@ IFA_INLINE float weighEvent(const float* e, const TreeQuery& q) {
                     soundCost(e[kHeardLoud * n], e[kHeardDuration * n], e[kHeardCentroid * n], q);
   const float speed2 = dot(leaving, leaving) + q.moments[0] * own.x * own.x +
                        q.moments[1] * own.y * own.y + q.moments[2] * own.z * own.z;
-  const float rising = dot(leaving, onto) - kGravityF * time;
+  // Rising at k, and less than that as simulated.
+  const float rising =
+      std::min(dot(leaving, onto) - kGravityF * time, 0.5F * kGravityF * gap - dot(flight, onto));
   const bool there = (velocity <= q.leastVelocity) & (orientation <= q.leastOrientation) &
-                     (speed2 <= q.squaredSpeed) & (rising <= 1e-4F) & (warp <= q.mostWarp);
+                     (speed2 <= q.squaredSpeed) & (rising <= 1e-3F) & (warp <= q.mostWarp);
   return there ? -sum : -kInfinity;
 }
 
