@@ -25,7 +25,8 @@
 #include "sampler/drop_statistics.h"
 #include "sampler/initial_state.h"
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define IFA_WIDEST __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #else
 #define IFA_WIDEST
@@ -295,7 +296,15 @@ bool report(const char* name, const EventDatabase& database, const Body& body,
       "lost {:.4f} of a mean {:.1f}; scans agree {}/{}\n",
       name, r.queries, queries.size(), kBest, 100 * r.complete / r.queries,
       100 * r.best / r.queries, r.lost / r.queries, r.first / r.queries, right, some.size());
+  double ends = 0, met = 0;
+  for (std::size_t q = 0; q < queries.size(); ++q) {
+    ends += queries[q].target.terminal ? 1 : 0;
+    met += queries[q].target.terminal && !truths[q].empty() ? 1 : 0;
+  }
   if (timed) {
+    fmt::print("  {} of {} terminal ones have an edge; flights: {} to terminal events, {} others\n",
+               met, ends, graph->tree(true).leaves() * ifa::kLeafEvents,
+               graph->tree(false).leaves() * ifa::kLeafEvents);
     fmt::print("  trees made in {:.2f} s, {:.0f} MB ({:.1f} bytes a flight); resident {:.0f} MB\n",
                built, static_cast<double>(graph->indexBytes()) * 1e-6,
                static_cast<double>(graph->indexBytes()) /

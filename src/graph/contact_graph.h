@@ -51,8 +51,8 @@ struct PathEnd {
 class ContactGraph {
  public:
   /// Builds the two search trees (terminal events and all others) on the worker threads
-  /// (setThreadCount), about a second per million events. Reports as "index". Errors: kBadInput
-  /// for a database of another body or one with more than 2^32 - 1 events, kInterrupted.
+  /// (setThreadCount), at most about a second per million events. Reports as "index". Errors:
+  /// kBadInput for a database of another body or one with more than 2^32 - 1 events, kInterrupted.
   [[nodiscard]] static Result<ContactGraph> make(EventDatabase database, const Body& body,
                                                  const GraphSettings& settings = {},
                                                  const Progress& progress = {});
