@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "graph/contact_graph.h"
+
+#include <algorithm>
+#include <limits>
+#include <span>
+
+#include "graph/best_list.h"
+#include "graph/event_tree.h"
+#include "graph/tree_events.h"
+
+namespace ifa {
+
+struct ContactGraph::Parts {
+  EventDatabase database;
+  Body body;
+  GraphSettings settings;
+  EventTree onward, ending;
+};
+
+ContactGraph::ContactGraph(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+ContactGraph::ContactGraph(ContactGraph&&) noexcept = default;
+ContactGraph& ContactGraph::operator=(ContactGraph&&) noexcept = default;
+ContactGraph::~ContactGraph() = default;
+
+Result<ContactGraph> ContactGraph::make(EventDatabase database, const Body& body,
+                                        const GraphSettings& settings, const Progress& progress) {
+  if (auto same = database.checkBody(body); !same) return tl::unexpected(same.error());
+  if (database.events() > std::numeric_limits<std::uint32_t>::max() - 1)
+    return badInput("has too many events to search", database.path().string());
+  progress("index", 0);
+  auto events = treeEvents(database, progress);
+  if (!events) return tl::unexpected(events.error());
+  progress("index", 0.2);
+  const TreeScales scales = treeScales(database, settings.affinity);
+  EventTree onward(std::move(events->onward), scales);
+  progress("index", 0.9);
+  EventTree ending(std::move(events->ending), scales);
+  progress("index", 1);
+  return ContactGraph(std::make_unique<Parts>(
+      Parts{std::move(database), body, settings, std::move(onward), std::move(ending)}));
+}
+
+const EventTree& ContactGraph::tree(bool terminal) const {
+  return terminal ? parts_->ending : parts_->onward;
+}
+
+std::vector<Transition> ContactGraph::best(const TransitionSource& source,
+                                           const TransitionTarget& target,
+                                           std::size_t count) const {
+  if (!(target.time > 0) || count == 0) return {};
+  const Parts& p = *parts_;
+  const EventTree& tree = target.terminal ? p.ending : p.onward;
+  const EdgeWeigher weigher(p.database, p.body, p.settings, source, target);
+  auto finds =
+      tree.find(TreeQuery(p.body, p.settings, source, target), count, p.settings.mostLeaves);
+  // Equal weights keep the order of their events.
+  std::sort(finds.begin(), finds.end(),
+            [](const TreeFind& a, const TreeFind& b) { return a.sibling < b.sibling; });
+  BestList<Transition> best(count);
+  for (const TreeFind& find : finds) {
+    const EdgeWeight weight = weigher.weigh(find.sibling);
+    if (weight.exists()) best.add({find.sibling, weight, weight.total()});
+  }
+  return best.take();
+}
+
+std::vector<Transition> ContactGraph::bestByScan(const TransitionSource& source,
+                                                 const TransitionTarget& target,
+                                                 std::size_t count) const {
+  const Parts& p = *parts_;
+  const EdgeWeigher weigher(p.database, p.body, p.settings, source, target);
+  BestList<Transition> best(count);
+  for (std::size_t j = 0; j < p.database.events(); ++j) {
+    const EdgeWeight weight = weigher.weigh(j, best.least());
+    if (weight.exists()) best.add({static_cast<std::uint32_t>(j), weight, weight.total()});
+  }
+  return best.take();
+}
+
+EdgeWeight ContactGraph::edgeWeight(const TransitionSource& source, const TransitionTarget& target,
+                                    std::uint32_t sibling) const {
+  return EdgeWeigher(parts_->database, parts_->body, parts_->settings, source, target)
+      .weigh(sibling);
+}
+
+std::vector<PathStart> ContactGraph::bestStarts(double time, const HeardEvent& first,
+                                                const TransitionTarget& second,
+                                                std::size_t count) const {
+  const Parts& p = *parts_;
+  const auto flags = p.database.flags();
+  const auto durations = p.database.values(kDuration), gaps = p.database.values(kGap);
+  const HeardEvent itself = {1, first.duration, first.centroid};
+  BestList<PathStart> best(count);
+  for (std::uint32_t j = 0; j < p.database.events(); ++j) {
+    PathStart start{j, time - durations[j], {}, {}, 0};
+    if (!(start.time > 0) || !(gaps[j] > 0) || (flags[j] & EventRecord::kFollowed) == 0) continue;
+    if (logTimeWarp(start.time, gaps[j], p.settings.affinity) < best.least()) continue;
+    const double measure = p.database.values(kAmplitude)[j];
+    const HeardEvent event = heardEvent(p.database, j, measure);
+    start.sound.sound = logDuration(itself, event, p.settings.affinity) +
+                        logCentroid(itself, event, p.settings.affinity);
+    if (start.sound.sound < best.least() || !(measure > 0)) continue;
+    const TransitionSource source = {this->event(j).before, this->event(j).after};
+    const TransitionTarget target = {start.time, second.heard, second.terminal, measure};
+    start.weight = EdgeWeigher(p.database, p.body, p.settings, source, target)
+                       .weigh(j, best.least() - start.sound.sound);
+    start.total = start.sound.sound + start.weight.total();
+    if (start.weight.exists()) best.add(start);
+  }
+  return best.take();
+}
+
+std::vector<PathEnd> ContactGraph::bestTerminals(const HeardEvent& heard, std::size_t count) const {
+  const Parts& p = *parts_;
+  const auto flags = p.database.flags();
+  BestList<PathEnd> best(count);
+  for (std::uint32_t i = 0; i < p.database.events(); ++i) {
+    if ((flags[i] & EventRecord::kTerminal) == 0) continue;
+    const HeardEvent event = heardEvent(p.database, i, 1);
+    best.add({i, logDuration(heard, event, p.settings.affinity) +
+                     logCentroid(heard, event, p.settings.affinity)});
+  }
+  return best.take();
+}
+
+ContactEvent ContactGraph::event(std::uint32_t event) const {
+  const EventRecord record = parts_->database.record(event);
+  ContactEvent made;
+  made.end = record.duration;
+  made.amplitude = record.amplitude;
+  made.centroid = record.centroid;
+  made.terminal = record.has(EventRecord::kTerminal);
+  made.before = unpack(record.before);
+  made.after = unpack(record.after);
+  made.after.position.x() = record.shift[0];
+  made.after.position.y() = record.shift[1];
+  made.touchingAfter = record.has(EventRecord::kTouchingAfter);
+  return made;
+}
+
+std::pair<ContactEvent, ContactEvent> ContactGraph::passage(std::uint32_t sibling) const {
+  const EventRecord record = parts_->database.record(sibling);
+  ContactEvent first = event(sibling), second = event(sibling + 1);
+  second.start += first.end + record.gap;
+  second.end += first.end + record.gap;
+  for (RigidState* state : {&second.before, &second.after})
+    state->position += Eigen::Vector3d(record.next[0], record.next[1], 0);
+  // A touch too soft to hear makes the way there no flight either.
+  first.touchingAfter = first.touchingAfter || record.has(EventRecord::kSilentPassage);
+  return {first, second};
+}
+
+HeardEvent ContactGraph::heard(std::uint32_t event, double firstAmplitude) const {
+  return heardEvent(parts_->database, event, firstAmplitude);
+}
+
+const EventDatabase& ContactGraph::database() const { return parts_->database; }
+const GraphSettings& ContactGraph::settings() const { return parts_->settings; }
+std::size_t ContactGraph::indexBytes() const {
+  return parts_->onward.bytes() + parts_->ending.bytes();
+}
+
+}  // namespace ifa
