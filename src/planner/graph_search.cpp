@@ -13,6 +13,8 @@ namespace {
 constexpr double kNothing = -std::numeric_limits<double>::infinity();
 /// Lists of children that are kept; then they are looked for again.
 constexpr std::size_t kMostLists = 200000;
+/// Log weight that an event without a way of its own is put back by.
+constexpr double kNoOwnWay = 10;
 /// Times the children wanted that are looked at where few can go on.
 constexpr std::size_t kMostAhead = 512;
 
@@ -142,7 +144,21 @@ void GraphSearch::lookAhead(int level, GraphChild& child) const {
   const double least = even + (lowest_ - height) / time;
   const double most = even + (connector_.model().radius - height) / time;
   child.bound = cost(std::clamp(0.0, least, most));
-  child.worth += cost(even);
+  child.worth += ownWay(event, time).value_or(cost(even) - kNoOwnWay);
+}
+
+/// What it would take to follow the event's own flight, in another time: it need not be the best
+/// edge, but where it is a good one, there are others like it.
+std::optional<double> GraphSearch::ownWay(std::uint32_t event, double time) const {
+  const auto flags = graph_.database().flags();
+  if ((flags[event] & EventRecord::kFollowed) == 0) return {};
+  TransitionTarget own;
+  own.time = time;
+  own.terminal = (flags[event + 1] & EventRecord::kTerminal) != 0;
+  const ContactEvent from = graph_.event(event);
+  const EdgeWeight weight = graph_.edgeWeight({from.before, from.after}, own, event);
+  if (!weight.exists()) return {};
+  return weight.velocity + weight.timeWarp;
 }
 
 /// Depth first, the best edges first. All weights are at most 0, and that of the next edge at most

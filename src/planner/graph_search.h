@@ -82,6 +82,7 @@ class GraphSearch {
   [[nodiscard]] const std::vector<GraphChild>& children(const GraphPath& path);
   [[nodiscard]] std::vector<GraphChild> find(const GraphPath& path, std::size_t wanted);
   void lookAhead(int level, GraphChild& child) const;
+  [[nodiscard]] std::optional<double> ownWay(std::uint32_t event, double time) const;
   [[nodiscard]] double timeAfter(const GraphPath& path) const;
   [[nodiscard]] bool allConnect(const GraphPath& path);
   [[nodiscard]] bool connects(const GraphPath& path, int level);

@@ -33,7 +33,7 @@ TEST(Usage, HelpNamesEveryCommand) {
 
 TEST(Usage, HelpOffersOnlyWhatIsThere) {
   const auto help = runProgram({"sync", "--help"}).out;
-  for (const char* later : {"--orient", "--positions", "--fit", "--database"}) {
+  for (const char* later : {"--orient", "--positions", "--fit"}) {
     EXPECT_THAT(help, testing::Not(HasSubstr(later)));
   }
 }
@@ -65,14 +65,20 @@ INSTANTIATE_TEST_SUITE_P(
                                  "json,fbx"},
         std::vector<std::string>{"sync", "a.wav", "--object", "d6", "-o", "out", "--planner",
                                  "hybrid"},
+        std::vector<std::string>{"sync", "a.wav", "--object", "d6", "-o", "out", "--early-exit",
+                                 "2"},
+        std::vector<std::string>{"sync", "a.wav", "--object", "d6", "-o", "out", "--simulations",
+                                 "0"},
+        std::vector<std::string>{"sync", "a.wav", "--object", "d6", "-o", "out", "--connection",
+                                 "slerp"},
         std::vector<std::string>{"--threads", "0", "sync", "a.wav", "--object", "d6", "-o",
                                  "out"}));
 
 TEST(Usage, SaysThatALaterPlannerIsNotThereYet) {
   const auto result =
-      runProgram({"sync", "a.wav", "--object", "d6", "-o", "out", "--planner", "graph"});
+      runProgram({"sync", "a.wav", "--object", "d6", "-o", "out", "--planner", "hybrid"});
   EXPECT_EQ(result.exit, 2);
-  EXPECT_THAT(result.err, HasSubstr("graph"));
+  EXPECT_THAT(result.err, HasSubstr("hybrid"));
   EXPECT_THAT(result.err, HasSubstr("shoot"));
 }
 

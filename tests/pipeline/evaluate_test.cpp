@@ -164,6 +164,30 @@ TEST(EvaluationRow, SumsUp) {
   EXPECT_DOUBLE_EQ(row.wallP95, 9);
 }
 
+TEST(EvaluationRow, SumsUpWhatSearchesOfADatabaseTell) {
+  std::vector<CaseOutcome> cases = {solvedCase(2, 0.5, 0.5, 1), solvedCase(2, 0.2, 0.5, 1)};
+  for (CaseOutcome& outcome : cases) {
+    outcome.events = 700;
+    outcome.arrivalBends = {0, 3};
+    outcome.scoreWithoutSound = 0.4;
+  }
+  cases[0].goodSeconds = 0.25;
+  cases[1].arrivalBends = {0, 5};
+  Evaluation evaluation;
+  evaluation.cases = cases;
+  evaluation.total = summarize("all", cases);
+  const EvaluationRow& row = evaluation.total;
+  EXPECT_EQ(row.events, 700);
+  EXPECT_EQ(row.good, 1);
+  EXPECT_DOUBLE_EQ(row.meanGoodSeconds, 0.25);
+  EXPECT_DOUBLE_EQ(row.meanScoreWithoutSound, 0.4);
+  EXPECT_DOUBLE_EQ(row.arrivalBendMedian, 1.5);
+  EXPECT_DOUBLE_EQ(row.arrivalBendMax, 5);
+  EXPECT_THAT(evaluationMarkdown(evaluation, false), HasSubstr("| all | 700 |"));
+  EXPECT_THAT(evaluationMarkdown(evaluation, false),
+              HasSubstr("| 1/2 | 0.25 | 0.400 | 1.50 | 5.00 |"));
+}
+
 TEST(EvaluationReport, TellsTheSameInMarkdownAndJson) {
   Evaluation evaluation;
   evaluation.cases = {solvedCase(3, 0.8, 0.5, 1)};

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <limits>
 
@@ -47,18 +48,61 @@ TEST_F(Synchronize, FindsAMotionForASignature) {
 
 TEST_F(Synchronize, RefusesSettingsThatMakeNoSense) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  std::vector<SynchronizeSettings> all(6, settings_);
+  std::vector<SynchronizeSettings> all(7, settings_);
   all[0].takes = 0;
   all[1].takes = kMaxTakes + 1;
   all[2].timeLimitSeconds = nan;
   all[3].energyGain = -0.1;
   all[4].preRollSeconds = std::numeric_limits<double>::infinity();
-  all[5].planner = "graph";
+  all[5].planner = "hybrid";
+  all[6].graph.earlyExit = nan;
   for (const auto& settings : all) {
     const auto result = synchronize(settings);
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().code, ErrorCode::kUsage) << result.error().text();
   }
+}
+
+class SynchronizeByGraph : public Synchronize {
+ protected:
+  void SetUp() override {
+    Synchronize::SetUp();
+    settings_.planner = "graph";
+    settings_.graph.simulations = 2000;
+  }
+};
+
+TEST_F(SynchronizeByGraph, MakesTheDatabaseThatIsMissing) {
+  const auto result = synchronize(settings_);
+  ASSERT_TRUE(result) << result.error().text();
+  const Motion& motion = result->takes.front();
+  EXPECT_TRUE(motion.success) << motion.failure;  // its audit holds
+  EXPECT_EQ(motion.planner, "graph");
+  ASSERT_EQ(motion.contacts.size(), 3U);
+  for (const MotionContact& contact : motion.contacts) {
+    EXPECT_NEAR(contact.time, contact.targetTime, 1e-4);
+    EXPECT_LT(contact.source.simulation, 2000);
+  }
+  ASSERT_TRUE(motion.database);
+  EXPECT_EQ(motion.database->simulations, 2000);
+  EXPECT_GT(motion.database->events, 2000);
+  EXPECT_EQ(motion.database->hash.size(), 16U);
+}
+
+TEST_F(SynchronizeByGraph, ShowsBlendsAtAnotherPace) {
+  test::writeText(settings_.sound, R"({"format": "inverse-foley-signature", "version": 1,
+  "terminal": false, "events": [
+    {"time": 0, "duration": 0, "amplitude": 1, "centroid": 0, "weight": 1},
+    {"time": 0.11, "duration": 0, "amplitude": 0.6, "centroid": 0, "weight": 1},
+    {"time": 0.15, "duration": 0, "amplitude": 0.4, "centroid": 0, "weight": 1}]})");
+  settings_.graph.timeWarp = true;
+  settings_.graph.printedVelocity = true;
+  const auto result = synchronize(settings_);
+  ASSERT_TRUE(result) << result.error().text();
+  const Motion& motion = result->takes.front();
+  EXPECT_TRUE(motion.success) << motion.failure;
+  const auto warped = [](const MotionContact& contact) { return contact.retiming != 1; };
+  EXPECT_TRUE(std::any_of(motion.contacts.begin(), motion.contacts.end(), warped));
 }
 
 TEST_F(Synchronize, EndsWhenItIsAskedTo) {

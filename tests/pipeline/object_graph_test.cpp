@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which databases a graph may be made of.
+#include "pipeline/object_graph.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "body/object_file.h"
+#include "pipeline/build_database.h"
+#include "support/temporary_folder.h"
+
+namespace ifa {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class ObjectGraph : public testing::Test {
+ protected:
+  void SetUp() override {
+    eraser_ = *loadObject("Eraser");
+    options_.database = folder_ / "eraser.ifadb";
+    build(surfaceOf(eraser_));
+  }
+  static SurfaceProperties surfaceOf(const Body& body) {
+    return body.definition.surfaces.at(body.definition.defaultSurface);
+  }
+  void build(const SurfaceProperties& surface) {
+    DatabaseRequest request;
+    request.body = &eraser_;
+    request.surface = surface;
+    request.surfaceName = eraser_.definition.defaultSurface;
+    request.simulations = 20;
+    request.seed = 5;
+    fs::remove(options_.database);
+    ASSERT_TRUE(buildDatabase(request, options_.database, {}));
+  }
+  Result<std::shared_ptr<const ContactGraph>> get(GraphShelf& shelf, const Body& body) const {
+    return shelf.get(body, surfaceOf(body), body.definition.defaultSurface, {});
+  }
+
+  test::TemporaryFolder folder_;
+  Body eraser_;
+  GraphOptions options_;
+};
+
+TEST_F(ObjectGraph, IsMadeOnce) {
+  GraphShelf shelf(options_, 0.25);
+  const auto first = get(shelf, eraser_);
+  ASSERT_TRUE(first) << first.error().text();
+  EXPECT_EQ((*first)->database().simulations(), 20U);
+  EXPECT_EQ((*first)->settings().energyGain, 0.25);
+  EXPECT_EQ(*first, *get(shelf, eraser_));
+}
+
+TEST_F(ObjectGraph, TakesTheOptionsOver) {
+  options_.printedVelocity = options_.timeWarp = true;
+  GraphShelf shelf(options_, 0);
+  const auto graph = get(shelf, eraser_);
+  ASSERT_TRUE(graph);
+  EXPECT_EQ((*graph)->settings().velocityReference, VelocityReference::kPrinted);
+  EXPECT_EQ((*graph)->settings().connection, ConnectionKind::kBlend);
+}
+
+TEST_F(ObjectGraph, IsNotMadeOfAnotherBody) {
+  GraphShelf shelf(options_, 0);
+  const auto graph = get(shelf, *loadObject("d6"));
+  ASSERT_FALSE(graph);
+  EXPECT_EQ(graph.error().code, ErrorCode::kBadInput);
+}
+
+TEST_F(ObjectGraph, IsNotMadeOfAnotherSurface) {
+  SurfaceProperties bouncier = surfaceOf(eraser_);
+  bouncier.restitution += 0.01;
+  build(bouncier);
+  GraphShelf shelf(options_, 0);
+  const auto graph = get(shelf, eraser_);
+  ASSERT_FALSE(graph);
+  EXPECT_EQ(graph.error().code, ErrorCode::kBadInput);
+  EXPECT_THAT(graph.error().text(), HasSubstr("restitution"));
+}
+
+TEST_F(ObjectGraph, NeedsItsFile) {
+  options_.database = folder_ / "nowhere.ifadb";
+  GraphShelf shelf(options_, 0);
+  const auto graph = get(shelf, eraser_);
+  ASSERT_FALSE(graph);
+  EXPECT_THAT(graph.error().text(), HasSubstr("nowhere.ifadb"));
+}
+
+}  // namespace
+}  // namespace ifa
