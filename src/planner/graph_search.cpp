@@ -13,8 +13,6 @@ namespace {
 constexpr double kNothing = -std::numeric_limits<double>::infinity();
 /// Lists of children that are kept; then they are looked for again.
 constexpr std::size_t kMostLists = 200000;
-/// Log weight that an event without a way of its own is put back by.
-constexpr double kNoOwnWay = 10;
 /// Times the children wanted that are looked at where few can go on.
 constexpr std::size_t kMostAhead = 512;
 
@@ -36,13 +34,12 @@ GraphSearch::GraphSearch(const PlanRequest& request, const GraphPlannerSettings&
       settings_(settings),
       connector_(connector),
       graph_(*request.graph),
+      lookAhead_(request, connector.model()),
       stop_(std::move(stop)) {
   const auto& events = request.signature.events;
   TransitionTarget second;
   second.heard = heardOf(events[1]);
   second.terminal = events.size() == 2 && request.signature.terminal;
-  const auto heights = graph_.database().values(kBeforeHeight);
-  if (!heights.empty()) lowest_ = *std::min_element(heights.begin(), heights.end());
   starts_ = graph_.bestStarts(events[1].time - events[0].time, heardOf(events[0]), second,
                               settings.starts);
 }
@@ -76,13 +73,14 @@ const std::vector<GraphChild>& GraphSearch::children(const GraphPath& path) {
   const std::uint32_t event = path.event(level);
   const auto key = std::tuple(path.first, level, event);
   const auto bans = bans_.find({level, event});
-  const std::size_t wanted = settings_.children + (bans == bans_.end() ? 0 : bans->second);
+  const std::size_t extra = bans == bans_.end() ? 0 : bans->second;
+  const std::size_t wanted = std::min(settings_.children + extra, graph_.database().events());
   const auto known = children_.find(key);
-  if (known != children_.end() && known->second.size() >= wanted) return known->second;
+  if (known != children_.end() && known->second.servesFor(wanted)) return known->second.found;
   ++queries_;
   stopped_ = stopped_ || stop_();
   if (children_.size() > kMostLists) children_.clear();
-  return children_.insert_or_assign(key, find(path, wanted)).first->second;
+  return children_.insert_or_assign(key, Children{wanted, find(path, wanted)}).first->second.found;
 }
 
 std::vector<GraphChild> GraphSearch::find(const GraphPath& path, std::size_t wanted) {
@@ -98,12 +96,15 @@ std::vector<GraphChild> GraphSearch::find(const GraphPath& path, std::size_t wan
   const TransitionSource source{left.before, left.after};
   std::vector<GraphChild> found;
   // Where most cannot go on from there, more are looked at.
-  for (std::size_t factor = ahead ? settings_.lookAhead : 1;; factor *= settings_.lookAhead) {
+  std::size_t factor = ahead ? settings_.lookAhead : 1;
+  // Few events lead to rest: before the last contact they must be looked for.
+  if (level + 3 == levels() && request_.signature.terminal) factor *= factor;
+  for (;; factor *= settings_.lookAhead) {
     const std::vector<Transition> edges = graph_.best(source, target, wanted * factor);
     found.clear();
     for (const Transition& edge : edges) {
       GraphChild child{edge, 0, edge.total};
-      if (ahead) lookAhead(level + 1, child);
+      if (ahead) lookAhead_.rate(level + 1, child);
       if (child.bound > graph_.settings().leastVelocity) found.push_back(child);
     }
     const bool all = edges.size() < wanted * factor;
@@ -114,51 +115,6 @@ std::vector<GraphChild> GraphSearch::find(const GraphPath& path, std::size_t wan
   });
   if (found.size() > wanted) found.resize(wanted);
   return found;
-}
-
-/// The height of a body in contact lies between narrow limits, and so does the vertical velocity
-/// that its next flight takes: how far the event's own is from it is known beforehand.
-void GraphSearch::lookAhead(int level, GraphChild& child) const {
-  const std::uint32_t event = child.transition.event();
-  const EventDatabase& database = graph_.database();
-  const auto value = [&](Column column) { return double{database.values(column)[event]}; };
-  const auto index = static_cast<std::size_t>(level);
-  const auto& events = request_.signature.events;
-  const double time = events[index + 1].time - events[index].time - value(kDuration);
-  const bool flies = (database.flags()[event] & EventRecord::kTouchingAfter) == 0;
-  if (!flies || time <= 0) {
-    child.bound = kNothing;
-    return;
-  }
-  if (graph_.settings().velocityReference == VelocityReference::kPrinted) return;
-  const double vertical = value(kAfterVelocityZ), height = value(kAfterHeight);
-  const Eigen::Vector3d change(value(kAfterVelocityX) - value(kBeforeVelocityX),
-                               value(kAfterVelocityY) - value(kBeforeVelocityY),
-                               vertical - value(kBeforeVelocityZ));
-  const PlausibleRegion region(change, Eigen::Vector3d::Zero(), connector_.model().radius,
-                               graph_.settings().affinity);
-  const auto cost = [&](double rise) {
-    return logVelocity(region.bend({0, 0, rise}, Eigen::Vector3d::Zero()));
-  };
-  const double even = 0.5 * kGravity * time - vertical;
-  const double least = even + (lowest_ - height) / time;
-  const double most = even + (connector_.model().radius - height) / time;
-  child.bound = cost(std::clamp(0.0, least, most));
-  child.worth += ownWay(event, time).value_or(cost(even) - kNoOwnWay);
-}
-
-/// What it would take to follow the event's own flight, in another time: it need not be the best
-/// edge, but where it is a good one, there are others like it.
-std::optional<double> GraphSearch::ownWay(std::uint32_t event, double time) const {
-  const auto flags = graph_.database().flags();
-  if ((flags[event] & EventRecord::kFollowed) == 0) return {};
-  TransitionTarget own;
-  own.time = time;
-  own.terminal = (flags[event + 1] & EventRecord::kTerminal) != 0;
-  const ContactEvent from = graph_.event(event);
-  const EdgeWeight weight = graph_.edgeWeight({from.before, from.after}, own, event);
-  if (!weight.exists()) return {};
-  return weight.velocity + weight.timeWarp;
 }
 
 /// Depth first, the best edges first. All weights are at most 0, and that of the next edge at most

@@ -14,6 +14,7 @@
 
 #include "graph/contact_graph.h"
 #include "planner/graph_planner_settings.h"
+#include "planner/look_ahead.h"
 #include "planner/path_connector.h"
 #include "planner/planner.h"
 
@@ -24,13 +25,6 @@ struct GraphEdge {
   std::uint32_t sibling = 0;
   double time = 0;  ///< T*, s
   EdgeWeight weight;
-};
-
-/// A transition, and what is known of the edge after it.
-struct GraphChild {
-  Transition transition;
-  double bound = 0;  ///< log f_v of that edge is no more
-  double worth = 0;  ///< total weight, and log f_v of that edge as far as it can be guessed
 };
 
 /// A walk through the graph that meets the signature's first events.
@@ -73,6 +67,16 @@ class GraphSearch {
   /// follow another one.
   using Turn = std::tuple<std::uint32_t, int, std::uint32_t, std::uint32_t>;
 
+  /// What was found when so many were wanted.
+  struct Children {
+    std::size_t wanted = 0;
+    std::vector<GraphChild> found;
+
+    [[nodiscard]] bool servesFor(std::size_t more) const {
+      return more <= wanted || found.size() < wanted;
+    }
+  };
+
   [[nodiscard]] int levels() const;
   [[nodiscard]] bool spent() const;
   [[nodiscard]] std::optional<GraphPath> bestFrom(const GraphPath& kept);
@@ -81,8 +85,6 @@ class GraphSearch {
   [[nodiscard]] bool banned(const GraphPath& path, std::uint32_t sibling) const;
   [[nodiscard]] const std::vector<GraphChild>& children(const GraphPath& path);
   [[nodiscard]] std::vector<GraphChild> find(const GraphPath& path, std::size_t wanted);
-  void lookAhead(int level, GraphChild& child) const;
-  [[nodiscard]] std::optional<double> ownWay(std::uint32_t event, double time) const;
   [[nodiscard]] double timeAfter(const GraphPath& path) const;
   [[nodiscard]] bool allConnect(const GraphPath& path);
   [[nodiscard]] bool connects(const GraphPath& path, int level);
@@ -92,14 +94,14 @@ class GraphSearch {
   GraphPlannerSettings settings_;
   PathConnector& connector_;
   const ContactGraph& graph_;
+  LookAhead lookAhead_;
   std::function<bool()> stop_;
-  double lowest_ = 0;  ///< height of the centre of mass in any contact, m
   std::vector<PathStart> starts_;
   std::set<std::uint32_t> usedStarts_;
   std::set<Edge> noFlight_;
   std::set<Turn> noTurn_;
   std::map<std::tuple<int, std::uint32_t>, std::size_t> bans_;  ///< on the way out of an event
-  std::map<std::tuple<std::uint32_t, int, std::uint32_t>, std::vector<GraphChild>> children_;
+  std::map<std::tuple<std::uint32_t, int, std::uint32_t>, Children> children_;
   std::optional<GraphPath> best_;
   double bestTotal_ = 0;
   GraphPath farthest_;

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is known of the edge after next before it is looked for. docs/branch-and-bound.md.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "dynamics/body_model.h"
+#include "graph/contact_graph.h"
+#include "planner/planner.h"
+
+namespace ifa {
+
+/// A transition, and what is known of the edge after it.
+struct GraphChild {
+  Transition transition;
+  double bound = 0;  ///< log f_v of that edge is no more
+  double worth = 0;  ///< total weight, and the weight of that edge as far as it can be guessed
+};
+
+/// Thread safe; request, graph and model must outlive it.
+class LookAhead {
+ public:
+  LookAhead(const PlanRequest& request, const BodyModel& model);
+
+  /// Sets `bound`, and adds to `worth`, for an event that meets the signature's event `level`, not
+  /// the last one.
+  void rate(int level, GraphChild& child) const;
+
+ private:
+  [[nodiscard]] std::optional<double> ownWay(std::uint32_t event, double time, bool terminal) const;
+
+  const PlanRequest& request_;
+  const ContactGraph& graph_;
+  const BodyModel& model_;
+  double lowest_ = 0;  ///< height of the centre of mass in any contact, m
+};
+
+}  // namespace ifa
