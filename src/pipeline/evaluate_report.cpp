@@ -76,6 +76,7 @@ Json rowJson(const EvaluationRow& row) {
       {"mean_search_seconds", row.meanSearchSeconds},
       {"mean_score", row.meanScore},
       {"mean_score_without_sound", row.meanScoreWithoutSound},
+      {"arrival_bend", {{"median", row.arrivalBendMedian}, {"max", row.arrivalBendMax}}},
       {"good", row.good},
       {"mean_seconds_to_good", row.meanGoodSeconds},
       {"mean_f_v", row.meanFv},
