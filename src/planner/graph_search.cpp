@@ -161,10 +161,13 @@ void GraphSearch::descendFromStarts(int depth) {
   }
 }
 
-/// The best path that goes on from `kept` (from any start where that has no edges) to the horizon,
-/// whose connections are made.
-std::optional<GraphPath> GraphSearch::bestFrom(const GraphPath& kept) {
-  const int depth = std::min(settings_.horizon, levels() - 1 - kept.last());
+int GraphSearch::depthFrom(const GraphPath& kept) const {
+  return std::min(settings_.horizon, levels() - 1 - kept.last());
+}
+
+/// The best path that goes on from `kept` (from any start where that has no edges) for `depth`
+/// contacts, whose connections are made.
+std::optional<GraphPath> GraphSearch::bestFrom(const GraphPath& kept, int depth) {
   while (!spent()) {
     best_.reset();
     bestTotal_ = kNothing;
@@ -226,14 +229,30 @@ bool GraphSearch::stepBack(GraphPath& kept) {
   return true;
 }
 
+/// No path leads to the horizon: how far one leads says which contact is the one to blame. Without
+/// the look-ahead, which gives up the contact before it.
+void GraphSearch::reachFarthest() {
+  children_.clear();
+  const std::size_t ahead = std::exchange(settings_.lookAhead, 1);
+  const GraphPath kept = farthest_;
+  const int most = depthFrom(kept);
+  for (int depth = 1; depth <= most && bestFrom(kept, depth); ++depth) {
+  }
+  settings_.lookAhead = ahead;
+  children_.clear();
+}
+
 std::optional<GraphPath> GraphSearch::next() {
   GraphPath kept;
   deadEnds_ = 0;
   while (!spent()) {
     if (progress) progress(static_cast<double>(kept.last()) / (levels() - 1));
-    const std::optional<GraphPath> window = bestFrom(kept);
+    const std::optional<GraphPath> window = bestFrom(kept, depthFrom(kept));
     if (!window) {
-      if (kept.edges.empty()) return {};
+      if (kept.edges.empty()) {
+        reachFarthest();
+        return {};
+      }
       if (!stepBack(kept)) {
         kept = {};
         deadEnds_ = 0;

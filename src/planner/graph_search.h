@@ -79,7 +79,9 @@ class GraphSearch {
 
   [[nodiscard]] int levels() const;
   [[nodiscard]] bool spent() const;
-  [[nodiscard]] std::optional<GraphPath> bestFrom(const GraphPath& kept);
+  [[nodiscard]] std::optional<GraphPath> bestFrom(const GraphPath& kept, int depth);
+  [[nodiscard]] int depthFrom(const GraphPath& kept) const;
+  void reachFarthest();
   void descend(GraphPath& path, int depth, double total);
   void descendFromStarts(int depth);
   [[nodiscard]] static Turn turn(const GraphPath& path, int level, std::uint32_t sibling);
