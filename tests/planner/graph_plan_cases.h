@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "base/random.h"
+#include "body/object_file.h"
 #include "graph/contact_graph.h"
+#include "planner/graph_planner_settings.h"
 #include "planner/planner.h"
 
 namespace ifa::test {
@@ -60,6 +62,15 @@ inline std::vector<ContactSignature> signaturesOf(const ContactGraph& graph, std
   return all;
 }
 
+inline const Body& graphDie() {
+  static const Body body = loadObject("d6").value();
+  return body;
+}
+
+inline SurfaceProperties graphDieSurface() {
+  return graphDie().definition.surfaces.at(graphDie().definition.defaultSurface);
+}
+
 inline PlanRequest graphRequest(const Body& body, const SurfaceProperties& surface,
                                 const ContactGraph& graph, ContactSignature signature) {
   PlanRequest request;
@@ -68,6 +79,13 @@ inline PlanRequest graphRequest(const Body& body, const SurfaceProperties& surfa
   request.graph = &graph;
   request.signature = std::move(signature);
   return request;
+}
+
+/// Searches that are given up soon.
+inline GraphPlannerSettings quickGraphSearch() {
+  GraphPlannerSettings settings;
+  settings.mostQueries = 1500;
+  return settings;
 }
 
 }  // namespace ifa::test
