@@ -60,8 +60,8 @@ class Shortlist {
 
 std::vector<TreeFind> EventTree::find(const TreeQuery& query, std::size_t count,
                                       std::size_t mostLeaves) const {
-  Shortlist best(count);
   if (leaves_ == 0 || count == 0) return {};
+  Shortlist best(std::min(count, leaves_ * kLeafEvents));
   std::priority_queue<Branch> queue;
   queue.push({0, 0});
   alignas(64) std::array<float, kFanOut> weights{};
@@ -85,8 +85,8 @@ std::vector<TreeFind> EventTree::find(const TreeQuery& query, std::size_t count,
 }
 
 std::vector<TreeFind> EventTree::scan(const TreeQuery& query, std::size_t count) const {
-  if (count == 0) return {};
-  Shortlist best(count);
+  if (leaves_ == 0 || count == 0) return {};
+  Shortlist best(std::min(count, leaves_ * kLeafEvents));
   for (std::size_t i = 0; i < leaves_; ++i) best.addLeaf(leaf(i), query);
   return best.take();
 }

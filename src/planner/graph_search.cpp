@@ -60,11 +60,18 @@ double GraphSearch::timeAfter(const GraphPath& path) const {
          connector_.event(path.event(path.last())).end;
 }
 
+/// The turn from the edge that arrives at `level` to `sibling`. How the body arrives depends on the
+/// event that it comes from, too.
+GraphSearch::Turn GraphSearch::turn(const GraphPath& path, int level, std::uint32_t sibling) {
+  if (level == 0) return {path.first, 0, path.first, path.first, sibling};
+  const GraphEdge& arriving = path.edges[static_cast<std::size_t>(level) - 1];
+  return {path.first, level, path.event(level - 1), arriving.sibling, sibling};
+}
+
 bool GraphSearch::banned(const GraphPath& path, std::uint32_t sibling) const {
   const int level = path.last();
   if (noFlight_.count({level, path.event(level), sibling}) > 0) return true;
-  const std::uint32_t before = level == 0 ? path.first : path.edges.back().sibling;
-  return noTurn_.count({path.first, level, before, sibling}) > 0;
+  return noTurn_.count(turn(path, level, sibling)) > 0;
 }
 
 /// The best edges that leave the path's last event, and as many more as are known to lead nowhere.
@@ -154,10 +161,13 @@ void GraphSearch::descendFromStarts(int depth) {
   }
 }
 
-/// The best path that goes on from `kept` (from any start where that has no edges) to the horizon,
-/// whose connections are made.
-std::optional<GraphPath> GraphSearch::bestFrom(const GraphPath& kept) {
-  const int depth = std::min(settings_.horizon, levels() - 1 - kept.last());
+int GraphSearch::depthFrom(const GraphPath& kept) const {
+  return std::min(settings_.horizon, levels() - 1 - kept.last());
+}
+
+/// The best path that goes on from `kept` (from any start where that has no edges) for `depth`
+/// contacts, whose connections are made.
+std::optional<GraphPath> GraphSearch::bestFrom(const GraphPath& kept, int depth) {
   while (!spent()) {
     best_.reset();
     bestTotal_ = kNothing;
@@ -188,10 +198,7 @@ bool GraphSearch::connects(const GraphPath& path, int level) {
             ? nullptr
             : &connector_.edge(level - 1, path.event(level - 1), before->sibling, before->time);
     good = connector_.energyAllows(event, arrival, made);
-    if (!good) {
-      noTurn_.insert(
-          {path.first, level, before == nullptr ? path.first : before->sibling, edge.sibling});
-    }
+    if (!good) noTurn_.insert(turn(path, level, edge.sibling));
   }
   if (!good) ++bans_[{level, event}];
   return good;
@@ -217,9 +224,22 @@ bool GraphSearch::stepBack(GraphPath& kept) {
     usedStarts_.insert(kept.first);
     return false;
   }
-  noTurn_.insert({kept.first, level, kept.edges.back().sibling, sibling});
+  noTurn_.insert(turn(kept, level, sibling));
   ++bans_[{level, kept.event(level)}];
   return true;
+}
+
+/// No path leads to the horizon: how far one leads says which contact is the one to blame. Without
+/// the look-ahead, which gives up the contact before it.
+void GraphSearch::reachFarthest() {
+  children_.clear();
+  const std::size_t ahead = std::exchange(settings_.lookAhead, 1);
+  const GraphPath kept = farthest_;
+  const int most = depthFrom(kept);
+  for (int depth = 1; depth <= most && bestFrom(kept, depth); ++depth) {
+  }
+  settings_.lookAhead = ahead;
+  children_.clear();
 }
 
 std::optional<GraphPath> GraphSearch::next() {
@@ -227,9 +247,12 @@ std::optional<GraphPath> GraphSearch::next() {
   deadEnds_ = 0;
   while (!spent()) {
     if (progress) progress(static_cast<double>(kept.last()) / (levels() - 1));
-    const std::optional<GraphPath> window = bestFrom(kept);
+    const std::optional<GraphPath> window = bestFrom(kept, depthFrom(kept));
     if (!window) {
-      if (kept.edges.empty()) return {};
+      if (kept.edges.empty()) {
+        reachFarthest();
+        return {};
+      }
       if (!stepBack(kept)) {
         kept = {};
         deadEnds_ = 0;

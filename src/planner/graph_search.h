@@ -63,9 +63,9 @@ class GraphSearch {
  private:
   /// Level, event before the edge, sibling: an edge that has no flight.
   using Edge = std::tuple<int, std::uint32_t, std::uint32_t>;
-  /// First event, level, sibling by which its event was reached, sibling: an edge that must not
-  /// follow another one.
-  using Turn = std::tuple<std::uint32_t, int, std::uint32_t, std::uint32_t>;
+  /// First event, level, event before, sibling by which it reached the next one, sibling: an edge
+  /// that must not follow another one.
+  using Turn = std::tuple<std::uint32_t, int, std::uint32_t, std::uint32_t, std::uint32_t>;
 
   /// What was found when so many were wanted.
   struct Children {
@@ -79,9 +79,12 @@ class GraphSearch {
 
   [[nodiscard]] int levels() const;
   [[nodiscard]] bool spent() const;
-  [[nodiscard]] std::optional<GraphPath> bestFrom(const GraphPath& kept);
+  [[nodiscard]] std::optional<GraphPath> bestFrom(const GraphPath& kept, int depth);
+  [[nodiscard]] int depthFrom(const GraphPath& kept) const;
+  void reachFarthest();
   void descend(GraphPath& path, int depth, double total);
   void descendFromStarts(int depth);
+  [[nodiscard]] static Turn turn(const GraphPath& path, int level, std::uint32_t sibling);
   [[nodiscard]] bool banned(const GraphPath& path, std::uint32_t sibling) const;
   [[nodiscard]] const std::vector<GraphChild>& children(const GraphPath& path);
   [[nodiscard]] std::vector<GraphChild> find(const GraphPath& path, std::size_t wanted);

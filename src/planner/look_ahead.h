@@ -7,6 +7,7 @@
 
 #include "dynamics/body_model.h"
 #include "graph/contact_graph.h"
+#include "planner/next_flight.h"
 #include "planner/planner.h"
 
 namespace ifa {
@@ -18,7 +19,7 @@ struct GraphChild {
   double worth = 0;  ///< total weight, and the weight of that edge as far as it can be guessed
 };
 
-/// Thread safe; request, graph and model must outlive it.
+/// Thread safe; request and graph must outlive it.
 class LookAhead {
  public:
   LookAhead(const PlanRequest& request, const BodyModel& model);
@@ -32,8 +33,7 @@ class LookAhead {
 
   const PlanRequest& request_;
   const ContactGraph& graph_;
-  const BodyModel& model_;
-  double lowest_ = 0;  ///< height of the centre of mass in any contact, m
+  NextFlight nextFlight_;
 };
 
 }  // namespace ifa

@@ -27,6 +27,9 @@ Motion fullMotion() {
   motion.contacts[1].source = {SourceKind::kDatabase, -1, std::int64_t{1} << 60, 23};
   motion.contacts[1].factors = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 1.0 / 3};
   motion.contacts[1].impulseChange = {1e-300, -1e-5, 0.1};
+  motion.contacts[2].arrivalImpulseChange = {0.1 + 0.2, -1e-7, 1.0 / 3};
+  motion.contacts[2].arrivalAngularChange = {1e-300, 2.0 / 3, -0.7};
+  motion.contacts[2].arrivalBend = 1.0 / 7;
   return motion;
 }
 
@@ -61,6 +64,10 @@ TEST(MotionJson, LeavesOutWhatIsNotThere) {
   const Json json = asJson(motion);
   EXPECT_TRUE(json["failure"].is_null());
   EXPECT_FALSE(json.contains("database"));
+  for (const char* field : {"arrival_bend", "arrival_impulse_change", "arrival_angular_change"}) {
+    EXPECT_FALSE(json["contacts"][1].contains(field));
+    EXPECT_TRUE(json["contacts"][2].contains(field));
+  }
 }
 
 TEST(MotionJson, ComesBackToTheLastBit) {
@@ -79,6 +86,10 @@ TEST(MotionJson, ComesBackToTheLastBit) {
     EXPECT_EQ(a.angularVelocity, b.angularVelocity);
   }
   EXPECT_EQ(read->contacts[1].impulseChange, original.contacts[1].impulseChange);
+  EXPECT_EQ(read->contacts[2].arrivalImpulseChange, original.contacts[2].arrivalImpulseChange);
+  EXPECT_EQ(read->contacts[2].arrivalAngularChange, original.contacts[2].arrivalAngularChange);
+  EXPECT_EQ(read->contacts[2].arrivalBend, 1.0 / 7);
+  EXPECT_EQ(read->contacts[1].arrivalBend, 0);
   EXPECT_EQ(read->contacts[1].source.event, std::int64_t{1} << 60);
   EXPECT_EQ(read->contacts[1].factors.p, 1.0 / 3);
   EXPECT_EQ(read->silent, original.silent);
@@ -132,6 +143,10 @@ TEST(MotionJson, NamesTheFieldThatIsWrong) {
               HasSubstr("'contacts[2].factors.q' is out of range"));
   EXPECT_THAT(errorAfter([](Json& j) { j["contacts"][0]["arrival"] = "train"; }),
               HasSubstr("'contacts[0].arrival'"));
+  EXPECT_THAT(errorAfter([](Json& j) { j["contacts"][2]["arrival_bend"] = -1; }),
+              HasSubstr("'contacts[2].arrival_bend'"));
+  EXPECT_THAT(errorAfter([](Json& j) { j["contacts"][2].erase("arrival_angular_change"); }),
+              HasSubstr("'contacts[2].arrival_angular_change' is missing"));
   EXPECT_THAT(errorAfter([](Json& j) { j["contacts"][2]["time"] = -1; }),
               HasSubstr("'contacts[2]' starts before"));
   EXPECT_THAT(errorAfter([](Json& j) { j["silent"][0] = {2, 1}; }), HasSubstr("'silent[0]'"));

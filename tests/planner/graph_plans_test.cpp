@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: Apache-2.0
+// Plans of the graph planner become motions that hold the audit, and say of themselves what is
+// true.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "audit/audit.h"
+#include "dynamics/flight.h"
+#include "motion/build_motion.h"
+#include "planner/graph_plan_cases.h"
+#include "planner/graph_planner.h"
+#include "support/drop_database.h"
+
+namespace ifa::test {
+namespace {
+
+/// Enough drops for most signatures to be met.
+const DropDatabase& drops() {
+  static const DropDatabase drops(graphDie(), graphDieSurface(), 5000, 21);
+  return drops;
+}
+
+struct Kind {
+  const char* name;
+  ConnectionKind connection;
+  VelocityReference reference;
+  int solved;  ///< no fewer of the signatures
+};
+
+struct Planned {
+  PlanRequest request;
+  Plan plan;
+  Motion motion;
+};
+
+class GraphPlans : public testing::TestWithParam<Kind> {
+ protected:
+  struct World {
+    ContactGraph graph;
+    std::vector<Planned> planned;
+    int solved = 0;
+  };
+  /// Signatures of 4 to 8 contacts, planned once for all tests of a kind.
+  static World& world() {
+    static std::map<std::string, World> all;
+    const auto known = all.find(GetParam().name);
+    if (known != all.end()) return known->second;
+    GraphSettings settings;
+    settings.connection = GetParam().connection;
+    settings.velocityReference = GetParam().reference;
+    World& made = all.emplace(GetParam().name, World{graphOf(drops(), graphDie(), settings), {}, 0})
+                      .first->second;
+    for (std::size_t n = 4; n <= 8; ++n) {
+      for (const bool terminal : {false, true}) {
+        for (const auto& signature : signaturesOf(made.graph, 2, n, terminal, n)) {
+          Planned one{graphRequest(graphDie(), graphDieSurface(), made.graph, signature), {}, {}};
+          one.plan = GraphPlanner(quickGraphSearch()).plan(one.request, {}).value().at(0);
+          auto motion = buildMotion(one.request, one.plan, 0.3);
+          EXPECT_TRUE(motion) << motion.error().text();
+          if (motion) one.motion = std::move(*motion);
+          one.motion.object.surface = graphDie().definition.defaultSurface;
+          made.solved += one.plan.solved;
+          made.planned.push_back(std::move(one));
+        }
+      }
+    }
+    return made;
+  }
+};
+
+TEST_P(GraphPlans, MeetManySignaturesOfDropsAndHoldTheAudit) {
+  EXPECT_EQ(world().planned.size(), 20U);
+  EXPECT_GE(world().solved, GetParam().solved);
+  for (const Planned& one : world().planned) {
+    if (!one.plan.solved) continue;
+    const AuditReport report = audit(one.motion, graphDie());
+    EXPECT_TRUE(report.passed()) << formatAudit(report);
+    ASSERT_EQ(one.motion.contacts.size(), one.request.signature.events.size());
+    for (std::size_t i = 0; i < one.motion.contacts.size(); ++i)
+      EXPECT_NEAR(one.motion.contacts[i].time, one.request.signature.events[i].time, 1e-12);
+    EXPECT_EQ(one.motion.contacts.back().terminal, one.request.signature.terminal);
+  }
+}
+
+TEST_P(GraphPlans, OnlyBlendsWarpTime) {
+  double farthest = 0;
+  for (const Planned& one : world().planned) {
+    for (const PlannedContact& contact : one.plan.contacts) {
+      const double amount = std::max(contact.retiming, 1 / contact.retiming) - 1;
+      EXPECT_LT(amount, 0.3);
+      farthest = std::max(farthest, amount);
+    }
+  }
+  if (GetParam().connection == ConnectionKind::kExact) {
+    EXPECT_EQ(farthest, 0);
+  } else {
+    EXPECT_GT(farthest, 1e-3);
+  }
+}
+
+/// Equations 2 and 3 once more. @param reference  changes by the contact
+double bendOf(const Eigen::Vector3d& v, const Eigen::Vector3d& w, const Eigen::Vector3d& linear,
+              const Eigen::Vector3d& angular) {
+  const auto squared = [](const Eigen::Vector3d& change, const Eigen::Vector3d& reference,
+                          double size, double degrees, double smallest) {
+    const double axis = size * std::max(reference.norm(), smallest);
+    const double along = change.dot(reference.normalized());
+    const double across = (change - along * reference.normalized()).norm();
+    return std::pow(along / axis, 2) +
+           std::pow(across / (axis * std::tan(degrees * M_PI / 180)), 2);
+  };
+  return std::sqrt(squared(v, linear, 0.4, 20, 0.05) +
+                   squared(w, angular, 0.2, 10, 0.05 / graphDie().radius));
+}
+
+/// Factors of the edge that leads from one contact to another, from what the plan says of both.
+class Recomputed {
+ public:
+  Recomputed(const PlanRequest& request, const Plan& plan, std::size_t i)
+      : target_(request.signature.events[i]), to_(plan.contacts[i]) {
+    if (i > 0) from_ = &plan.contacts[i - 1];
+  }
+  [[nodiscard]] double bend() const {
+    const ContactEvent& event = from_->event;
+    return bendOf(from_->velocityChange, from_->angularVelocityChange,
+                  event.after.velocity - event.before.velocity,
+                  event.after.angularVelocity - event.before.angularVelocity);
+  }
+  [[nodiscard]] double v() const { return std::exp(-std::pow(bend(), 2)); }
+  [[nodiscard]] double t() const {
+    return std::exp(-100 * std::pow(std::max(stretch(), 1 / stretch()) - 1, 2));
+  }
+  /// What the plane's turn leaves between i+ and j+, j from the database.
+  [[nodiscard]] double q(const ContactGraph& graph, std::uint32_t sibling, bool blend) const {
+    const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+    const Eigen::Vector3d a = from_->event.after.orientation.conjugate() * up;
+    const Eigen::Vector3d b = graph.event(sibling).after.orientation.conjugate() * up;
+    const double angle = std::atan2(a.cross(b).norm(), a.dot(b));
+    const double shown = to_.time - from_->time - from_->event.end;
+    const double time = std::min(blend ? shown / to_.retiming : shown, 0.2);
+    return std::exp(-0.85 * std::pow(angle / time, 2));
+  }
+  [[nodiscard]] double a(double first) const {
+    return std::exp(-2.78 * std::pow(target_.amplitude - to_.event.amplitude / first, 2));
+  }
+  [[nodiscard]] double duration() const {
+    return to_.event.filteredDuration(graphDie().definition.mergeGap);
+  }
+  [[nodiscard]] double l() const {
+    if (target_.duration == 0 && duration() == 0) return 1;
+    return std::exp(-7000 * std::pow(target_.duration - duration(), 2));
+  }
+  [[nodiscard]] double c() const {
+    const double heard = duration() > 0 ? to_.event.centroid : 0;
+    return std::exp(-7000 * std::pow(target_.centroid - heard, 2));
+  }
+
+ private:
+  [[nodiscard]] double stretch() const { return to_.retiming; }
+
+  const SignatureEvent& target_;
+  const PlannedContact& to_;
+  const PlannedContact* from_ = nullptr;
+};
+
+TEST_P(GraphPlans, ScoresAreThoseOfTheMotion) {
+  const bool printed = GetParam().reference == VelocityReference::kPrinted;
+  const ContactGraph& graph = world().graph;
+  for (const Planned& one : world().planned) {
+    const auto& contacts = one.plan.contacts;
+    double product = 1, motion = 1, v = 1, largest = 0;
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      const Recomputed again(one.request, one.plan, i);
+      const ContactFactors& f = contacts[i].factors;
+      EXPECT_NEAR(f.a, again.a(contacts[0].event.amplitude), 1e-5);
+      EXPECT_NEAR(f.l, again.l(), 1e-5);
+      EXPECT_NEAR(f.c, again.c(), 1e-5);
+      if (i > 0) {
+        const auto event =
+            graph.database().firstEvent(static_cast<std::size_t>(contacts[i].source.simulation)) +
+            static_cast<std::size_t>(contacts[i].source.event);
+        const bool blend = GetParam().connection == ConnectionKind::kBlend;
+        EXPECT_NEAR(f.q, again.q(graph, static_cast<std::uint32_t>(event) - 1, blend), 1e-4);
+        EXPECT_NEAR(contacts[i].bend, again.bend(), 1e-9);
+        EXPECT_NEAR(f.t, again.t(), 1e-5);
+        if (!printed) {
+          EXPECT_NEAR(f.v, again.v(), 1e-9);
+        }
+        largest = std::max(largest, contacts[i].bend);
+      } else {
+        EXPECT_EQ(f.v * f.q * f.t, 1);
+      }
+      motion *= f.v * f.q * f.t;
+      product *= f.v * f.q * f.t * f.a * f.l * f.c;
+      v *= f.v;
+    }
+    if (contacts.empty()) continue;
+    const auto n = static_cast<double>(contacts.size());
+    EXPECT_NEAR(one.plan.score, std::pow(product, 1 / (6 * n)), 1e-9);
+    EXPECT_NEAR(one.plan.scoreWithoutSound, std::pow(motion, 1 / (3 * n)), 1e-9);
+    EXPECT_NEAR(one.plan.meanFv, std::pow(v, 1 / n), 1e-9);
+    EXPECT_EQ(one.plan.bendMax, largest);
+    EXPECT_LE(one.plan.bendMax, one.plan.bendCap);
+  }
+}
+
+/// Free flight by the simulator's own path.
+RigidState fly(const BodyModel& model, const RigidState& start, double duration) {
+  KernelState<double> state = kernelState(start, 0);
+  while (state.time < duration) {
+    const FlightSegment segment(model, state, duration - state.time);
+    state = segment.at(std::min(segment.length(), duration - state.time));
+  }
+  return rigidState(state);
+}
+
+/// Where a flight ends the next event begins: laid into one world, the poses are the same.
+TEST_P(GraphPlans, FlightsEndWhereTheNextEventBegins) {
+  const BodyModel model(graphDie(), graphDieSurface());
+  // The printed Newton iteration ends sooner (5.3.2).
+  const double turned = GetParam().connection == ConnectionKind::kExact ? 1e-9 : 2e-6;
+  int flights = 0, others = 0;  // to the contact of another drop
+  for (const Planned& one : world().planned) {
+    for (std::size_t i = 1; i < one.plan.contacts.size(); ++i) {
+      const PlannedContact &from = one.plan.contacts[i - 1], &to = one.plan.contacts[i];
+      RigidState departure = from.event.after;
+      departure.velocity += from.velocityChange;
+      departure.angularVelocity += from.angularVelocityChange;
+      const double shown = to.time - from.time - from.event.end;
+      const RigidState end = fly(model, from.placement.apply(departure), shown / to.retiming);
+      const RigidState begin = to.placement.apply(to.event.before);
+      EXPECT_LT((end.position - begin.position).norm(), 1e-9);
+      EXPECT_LT(end.orientation.angularDistance(begin.orientation), turned);
+      const Eigen::Quaterniond turn = to.placement.turn();
+      EXPECT_LT((end.velocity - (begin.velocity - turn * to.arrivalChange)).norm(), 1e-8);
+      EXPECT_LT(
+          (end.angularVelocity - (begin.angularVelocity - turn * to.arrivalAngularChange)).norm(),
+          1e-5);
+      ++flights;
+      others += from.source.simulation != to.source.simulation;
+    }
+  }
+  EXPECT_GT(flights, 40);
+  EXPECT_GE(others, 2);
+}
+
+/// Whoever says that a body arrives more gently than it does is found out.
+TEST_P(GraphPlans, TheAuditFindsAnUnderstatedArrival) {
+  int tried = 0;
+  for (const Planned& one : world().planned) {
+    for (std::size_t i = 1; i < one.motion.contacts.size() && one.plan.solved; ++i) {
+      if (one.motion.contacts[i].arrivalBend < 1e-3) continue;
+      Motion half = one.motion;
+      half.contacts[i].arrivalBend *= 0.5;
+      const AuditCheck* check = nullptr;
+      const AuditReport report = audit(half, graphDie());
+      check = report.find("bend understated");
+      ASSERT_NE(check, nullptr);
+      EXPECT_FALSE(check->passed);
+      ++tried;
+      break;
+    }
+  }
+  EXPECT_GE(tried, 3);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, GraphPlans,
+    testing::Values(Kind{"Exact", ConnectionKind::kExact, VelocityReference::kBlend, 8},
+                    Kind{"ExactPrinted", ConnectionKind::kExact, VelocityReference::kPrinted, 7},
+                    Kind{"Blend", ConnectionKind::kBlend, VelocityReference::kBlend, 10},
+                    Kind{"BlendPrinted", ConnectionKind::kBlend, VelocityReference::kPrinted, 10}),
+    [](const auto& kind) { return std::string(kind.param.name); });
+
+}  // namespace
+}  // namespace ifa::test
