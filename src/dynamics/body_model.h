@@ -9,6 +9,10 @@
 
 namespace ifa {
 
+/// Vertices that would hit within this time hit together, s: an impact of a hard body lasts as
+/// long.
+inline constexpr double kTogether = 1.5e-4;
+
 /// Constants of the stepping scheme (docs/dynamics.md gives the reasons).
 struct KernelSettings {
   double step = 1e-3;         ///< s, longest step in contact of a body the size of a die

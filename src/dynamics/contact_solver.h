@@ -3,7 +3,8 @@
 // Gauss-Seidel with accumulated, warm-started impulses. A point that sticks is solved exactly at
 // each visit; one that slides or parts by projection, normal first. Rolling and spinning friction
 // are moments limited by the normal impulse, relaxed along.
-#pragma once
+#ifndef IFA_DYNAMICS_CONTACT_SOLVER_H
+#define IFA_DYNAMICS_CONTACT_SOLVER_H
 
 #include <algorithm>
 
@@ -214,3 +215,5 @@ class ContactSolver {
 };
 
 }  // namespace ifa
+
+#endif

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Energy of a state, J; potential energy counts from the ground plane.
-#pragma once
+#ifndef IFA_DYNAMICS_ENERGY_H
+#define IFA_DYNAMICS_ENERGY_H
 
 #include "dynamics/body_model.h"
 #include "dynamics/kernel_state.h"
@@ -24,3 +25,5 @@ inline double totalEnergy(const BodyModel& body, const RigidState& state) {
 }
 
 }  // namespace ifa
+
+#endif

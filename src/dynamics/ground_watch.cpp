@@ -69,8 +69,11 @@ void GroundWatch::list(double height, const Vec<double>& up, double kinetic) {
   }
 }
 
-void GroundWatch::measure(double height, double rise, const Vec<double>& up,
-                          const Vec<double>& turn, GroundFrame& frame) const {
+void GroundWatch::measure(const KernelState<double>& state, const Rotation<double>& rotation,
+                          GroundFrame& frame) const {
+  const double height = state.position.z, rise = state.velocity.z;
+  const Vec<double>& up = rotation.rows[2];
+  const Vec<double> turn = cross(up, state.w);
   const std::size_t size = filled_;
   if (frame.gap.size() < size) {
     frame.gap.resize(size);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Height of one vertex over a stretch of motion, and where it comes down to the ground.
-#pragma once
+#ifndef IFA_DYNAMICS_HEIGHT_CUBIC_H
+#define IFA_DYNAMICS_HEIGHT_CUBIC_H
 
 #include "dynamics/lane.h"
 
@@ -94,3 +95,5 @@ struct HeightCubic {
 };
 
 }  // namespace ifa
+
+#endif

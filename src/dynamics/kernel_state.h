@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // State of the kernel, and its way from and to RigidState.
-#pragma once
+#ifndef IFA_DYNAMICS_KERNEL_STATE_H
+#define IFA_DYNAMICS_KERNEL_STATE_H
 
 #include "dynamics/lane.h"
 #include "model/rigid_state.h"
@@ -24,6 +25,14 @@ struct KernelState {
   Vec<R> velocity{};
   Vec<R> w{};
 };
+
+template <class R>
+KernelState<R> select(const LaneMask<R>& mask, const KernelState<R>& yes,
+                      const KernelState<R>& no) {
+  return {select(mask, yes.time, no.time), select(mask, yes.position, no.position),
+          select(mask, yes.q, no.q), select(mask, yes.velocity, no.velocity),
+          select(mask, yes.w, no.w)};
+}
 
 inline KernelState<double> kernelState(const RigidState& state, double time) {
   KernelState<double> k;
@@ -49,3 +58,5 @@ inline RigidState rigidState(const KernelState<double>& k) {
 }
 
 }  // namespace ifa
+
+#endif

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One step in contact by the implicit midpoint rule, and what keeps it from gaining energy.
-#pragma once
+#ifndef IFA_DYNAMICS_MIDPOINT_STEP_H
+#define IFA_DYNAMICS_MIDPOINT_STEP_H
 
 #include "dynamics/contact_solver.h"
 #include "dynamics/energy.h"
@@ -109,3 +110,5 @@ R halveStep(const BodyModel& body, const KernelState<R>& before, R energy0,
 }
 
 }  // namespace ifa
+
+#endif

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// For each lane a list of vertices of its own.
+#ifndef IFA_DYNAMICS_CHOSEN_VERTICES_H
+#define IFA_DYNAMICS_CHOSEN_VERTICES_H
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+#include "dynamics/lane.h"
+
+namespace ifa {
+
+/// At most kMost numbers of vertices, in the order in which they were added; more are left out.
+template <class R, std::size_t kMost>
+class ChosenVertices {
+ public:
+  static constexpr std::size_t kLanes = LaneTraits<R>::kLanes;
+  using Index = typename LaneTraits<R>::Index;
+
+  ChosenVertices() { clear(); }
+
+  void clear() { std::fill(counts_, counts_ + kLanes, 0); }
+  void add(const LaneMask<R>& lanes, std::size_t vertex) {
+    for (unsigned bits = laneBits(lanes); bits != 0; bits &= bits - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+      if (counts_[lane] >= static_cast<double>(kMost)) continue;
+      number(static_cast<std::size_t>(counts_[lane]), lane) = static_cast<std::int64_t>(vertex);
+      counts_[lane] += 1;
+    }
+  }
+
+  /// Of the lane that has most.
+  [[nodiscard]] int count() const {
+    return static_cast<int>(*std::max_element(counts_, counts_ + kLanes));
+  }
+  [[nodiscard]] R counts() const { return loadLanes<R>(counts_); }
+  [[nodiscard]] int count(std::size_t lane) const { return static_cast<int>(counts_[lane]); }
+  void shorten(std::size_t lane, int count) { counts_[lane] = count; }
+  [[nodiscard]] std::int64_t& number(std::size_t k, std::size_t lane) {
+    return numbers_[k * kLanes + lane];
+  }
+  /// Lanes that have more than `k`.
+  [[nodiscard]] LaneMask<R> lanesWith(int k) const { return R(k) < loadLanes<R>(counts_); }
+  /// Lanes that have `vertex`.
+  [[nodiscard]] LaneMask<R> lanesThatHave(std::size_t vertex) const {
+    unsigned bits = 0;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      for (int k = 0; k < count(lane); ++k) {
+        const std::int64_t number = numbers_[static_cast<std::size_t>(k) * kLanes + lane];
+        if (number == static_cast<std::int64_t>(vertex)) bits |= 1U << lane;
+      }
+    }
+    return lanesOf<R>(bits);
+  }
+  /// Number `k` of each lane; 0 where it has fewer, so that it may be looked up.
+  [[nodiscard]] Index at(int k) const {
+    return orZero(lanesWith(k), loadIndices<R>(numbers_ + static_cast<std::size_t>(k) * kLanes));
+  }
+
+ private:
+  alignas(kLanes * sizeof(double)) double counts_[kLanes];
+  alignas(kLanes * sizeof(double)) std::int64_t numbers_[kMost * kLanes];
+};
+
+}  // namespace ifa
+
+#endif
