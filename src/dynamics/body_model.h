@@ -6,6 +6,7 @@
 
 #include "body/body.h"
 #include "dynamics/lane.h"
+#include "model/rigid_state.h"
 
 namespace ifa {
 

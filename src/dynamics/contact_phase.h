@@ -70,6 +70,8 @@ class ContactPhase {
   /// Steps taken that are told in halves, and the state between these.
   [[nodiscard]] const Mask& halves() const { return halves_; }
   [[nodiscard]] const KernelState<R>& middle() const { return middle_; }
+  /// Points that it had, of the lane that has most.
+  [[nodiscard]] int points() const { return solver_.count; }
   /// Steps taken after which the body rests.
   [[nodiscard]] const Mask& rests() const { return rests_; }
 
@@ -103,7 +105,7 @@ class ContactPhase {
   R vertices_[Solver::kMaxPoints]{};  ///< hull vertices of its points
   Vec<R> impulse_{};
   KernelState<R> middle_{};
-  Mask lifts_{false}, again_{false}, halves_{false}, rests_{false};
+  Mask lifts_{}, again_{}, halves_{}, rests_{};
   std::vector<Spot> spots_[kLanes];
 };
 
@@ -152,7 +154,7 @@ void ContactPhase<R, Ground>::gatherHeld(const R& step, const Ground& ground) {
     const Mask at = gap <= near;
     const Mask stays = at & (rate < parting);
     const Mask sinks =
-        !at & (gap + (rate - fall) * step < zero) & (rate * step >= back * gap) & (rate >= landing);
+        (gap + (rate - fall) * step < zero) & (rate * step >= back * gap) & (rate >= landing) & !at;
     chosen_.add(close & (stays | sinks), i);
   }
 }
@@ -226,10 +228,10 @@ void ContactPhase<R, Ground>::warmStart(const Sim& sim, const R& step) {
   for (int j = 0; j < Solver::kMaxPoints; ++j) {
     const Mask had = known & (R(j) < sim.lastCount);
     if (!anyLane(had)) break;
-    const Vec<R> impulse = sim.lastImpulse[j] * scale;
+    const Vec<R> impulse = sim.last[j].impulse * scale;
     for (int k = 0; k < solver_.count; ++k) {
       ContactPoint<R>& p = solver_.points[k];
-      const Mask same = had & p.here & (sim.lastVertex[j] == vertices_[k]);
+      const Mask same = had & p.here & (sim.last[j].vertex == vertices_[k]);
       setWhere(same, p.impulse, impulse);
     }
   }
@@ -280,8 +282,8 @@ void ContactPhase<R, Ground>::keep(const Mask& taken, const R& step, const End& 
   R count(0.0);
   for (int k = 0; k < solver_.count; ++k) {
     const ContactPoint<R>& p = solver_.points[k];
-    setWhere(taken, sim.lastVertex[k], vertices_[k]);
-    setWhere(taken, sim.lastImpulse[k], p.impulse);
+    setWhere(taken, sim.last[k].vertex, vertices_[k]);
+    setWhere(taken, sim.last[k].impulse, p.impulse);
     setWhere(p.here, count, R(k + 1));
   }
   setWhere(taken, sim.lastCount, count);
@@ -314,7 +316,7 @@ void ContactPhase<R, Ground>::tryStep(const R& limit, Sim& sim, Rotation<R>& rot
   warmStart(sim, step);
   const Midpoint<R> middle = solveMidpoint(body_, sim.state, rotation, step, solver_);
   impulse_ = middle.impulse;
-  const Mask slack = !lifts_ & (impulse_.z <= zero) & (sim.stuck < R(Rules::kLiftsToStay));
+  const Mask slack = (impulse_.z <= zero) & (sim.stuck < R(Rules::kLiftsToStay)) & !lifts_;
   setWhere(slack, sim.stuck, sim.stuck + one);
   lifts_ = lifts_ | slack;
   if (!anyLane(!lifts_)) return;
@@ -323,8 +325,8 @@ void ContactPhase<R, Ground>::tryStep(const R& limit, Sim& sim, Rotation<R>& rot
   end.kinetic = spendGain(body_, energy0, end.state);
   ground.measureNext(end.state, rotation);
   const R shorter = halve(sim, energy0, end, step, overshoot(step, ground));
-  again_ = !lifts_ & (shorter < step) & (cuts < R(Rules::kMostCuts));
-  const Mask taken = !lifts_ & !again_;
+  again_ = (shorter < step) & (cuts < R(Rules::kMostCuts)) & !lifts_;
+  const Mask taken = !(lifts_ | again_);
   setWhere(again_, sim.step, laneMax(shorter, R(Rules::kShortestStep)));
   setWhere(again_, sim.cuts, cuts + one);
   if (!anyLane(taken)) return;

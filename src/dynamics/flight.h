@@ -170,7 +170,7 @@ LaneMask<R> flyOn(const BodyModel& body, const R& limit, Simulation<R>& sim) {
   sim.state = segment.at(select(touches, hit, segment.length()));
   sim.lastCount = sim.lastStep = zero;
   sim.quietSince = R(-1.0);
-  const LaneMask<R> another = !touches | (hit > R(1e-6));
+  const LaneMask<R> another = (hit > R(1e-6)) | !touches;
   setWhere(another, sim.impactsHere, zero);
   setWhere(another, sim.stuck, zero);
   return touches;

@@ -4,7 +4,7 @@
 #define IFA_DYNAMICS_FLIGHT_PATH_H
 
 #include "dynamics/free_rotation.h"
-#include "dynamics/kernel_state.h"
+#include "dynamics/lane_state.h"
 
 namespace ifa {
 

@@ -38,6 +38,8 @@ class GroundWatch {
   /// The end of the step is now.
   void goOn() { std::swap(now_, next_); }
 
+  /// Every vertex is listed, always.
+  [[nodiscard]] bool all() const { return all_; }
   /// Length of the list. Its vertices are in the hull's order.
   [[nodiscard]] int count() const { return static_cast<int>(count_); }
   [[nodiscard]] double gap(int i) const { return now_.gap[at(i)]; }

@@ -4,7 +4,7 @@
 #define IFA_DYNAMICS_IMPACT_LAW_H
 
 #include "dynamics/contact_solver.h"
-#include "dynamics/energy.h"
+#include "dynamics/lane_energy.h"
 
 namespace ifa {
 

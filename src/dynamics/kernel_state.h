@@ -1,38 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // State of the kernel, and its way from and to RigidState.
-#ifndef IFA_DYNAMICS_KERNEL_STATE_H
-#define IFA_DYNAMICS_KERNEL_STATE_H
+#pragma once
 
-#include "dynamics/lane.h"
+#include "dynamics/lane_state.h"
 #include "model/rigid_state.h"
 
 namespace ifa {
-
-/// Where a lane is.
-enum class Phase {
-  kFlight,
-  kContact,
-  kHalfway,  ///< in the middle of a long step in contact, whose end is known
-  kRest
-};
-
-/// Pose and velocities; the angular velocity in the body (principal) frame.
-template <class R>
-struct KernelState {
-  R time{};
-  Vec<R> position{};
-  Quat<R> q{};
-  Vec<R> velocity{};
-  Vec<R> w{};
-};
-
-template <class R>
-KernelState<R> select(const LaneMask<R>& mask, const KernelState<R>& yes,
-                      const KernelState<R>& no) {
-  return {select(mask, yes.time, no.time), select(mask, yes.position, no.position),
-          select(mask, yes.q, no.q), select(mask, yes.velocity, no.velocity),
-          select(mask, yes.w, no.w)};
-}
 
 inline KernelState<double> kernelState(const RigidState& state, double time) {
   KernelState<double> k;
@@ -58,5 +31,3 @@ inline RigidState rigidState(const KernelState<double>& k) {
 }
 
 }  // namespace ifa
-
-#endif

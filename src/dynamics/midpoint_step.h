@@ -4,7 +4,7 @@
 #define IFA_DYNAMICS_MIDPOINT_STEP_H
 
 #include "dynamics/contact_solver.h"
-#include "dynamics/energy.h"
+#include "dynamics/lane_energy.h"
 #include "dynamics/free_rotation.h"
 
 namespace ifa {

@@ -4,9 +4,16 @@
 #define IFA_DYNAMICS_SIMULATION_H
 
 #include "dynamics/contact_solver.h"
-#include "dynamics/kernel_state.h"
+#include "dynamics/lane_state.h"
 
 namespace ifa {
+
+/// A point of the step before.
+template <class R>
+struct LastPoint {
+  R vertex{};        ///< of the hull
+  Vec<R> impulse{};  ///< N s
+};
 
 /// One number after the other, whole ones too, so that lanes are filled from rows of them.
 template <class R>
@@ -21,9 +28,8 @@ struct Simulation {
   R step{}, cuts{};            ///< a step that is tried again, s (0: none), and how often it was
   R lastStep{};                ///< of the step before, s; 0: none
   R lastCount{};               ///< points of the step before ...
-  Vec<R> lastMoment{};         ///< ... its moments ...
-  R lastVertex[kMaxPoints]{};  ///< ... its vertices ...
-  Vec<R> lastImpulse[kMaxPoints]{};  ///< ... and their impulses
+  Vec<R> lastMoment{};      ///< ... its moments ...
+  LastPoint<R> last[kMaxPoints]{};  ///< ... and themselves
 
   /// Starts anew, with no memory of earlier contacts. The kinetic energy is for others to say.
   void begin(const KernelState<R>& from, const R& bounce) {

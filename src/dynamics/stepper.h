@@ -39,6 +39,14 @@ class Stepper {
   [[nodiscard]] ContactStep contactStep() const;
 
  private:
+  /// Where the simulation is.
+  enum class Phase {
+    kFlight,
+    kContact,
+    kHalfway,  ///< in the middle of a long step in contact, whose end is known
+    kRest
+  };
+
   void look();
   Advance fly(double limit);
   Advance touch(double limit);
