@@ -10,23 +10,25 @@
 
 namespace ifa {
 
-/// What a simulation waits for.
-enum class Station : std::size_t { kArrive, kFlight, kImpact, kContact };
-inline constexpr std::size_t kStations = 4;
+/// What a simulation waits for. Impacts and steps in contact of different numbers of points take
+/// different times, and wait apart: there are kImpacts and kContacts stations of these from the
+/// first on.
+enum Station : std::size_t { kArrive, kFlight, kImpact, kContact = kImpact + 3, kStations = kContact + 4 };
+inline constexpr std::size_t kImpacts = 3, kContacts = 4;
 
 struct BatchStepper::Data {
   struct Place {
     explicit Place(const BodyModel& body) : watch(body) {}
 
-    Simulation<double> sim;
+    alignas(64) Simulation<double> sim;
     GroundWatch watch;
     bool renewed = false;  ///< another simulation was started while the last piece was told
   };
 
   Data(const BodyModel& model, std::size_t count) : body(model), places(count, Place(model)) {}
 
-  void wait(std::size_t place, Station station) {
-    waiting[static_cast<std::size_t>(station)].push_back(place);
+  void wait(std::size_t place, std::size_t station) {
+    waiting[station].push_back(place);
   }
 
   const BodyModel& body;

@@ -36,43 +36,37 @@ class BatchRun {
 
   void run() {
     while (take()) {
-      switch (station_) {
-        case Station::kArrive:
-          arrive();
-          break;
-        case Station::kFlight:
-          fly();
-          break;
-        case Station::kImpact:
-          hit();
-          break;
-        case Station::kContact:
-          step();
-          break;
+      if (station_ >= kContact) {
+        step();
+      } else if (station_ >= kImpact) {
+        hit();
+      } else if (station_ == kFlight) {
+        fly();
+      } else {
+        arrive();
       }
     }
   }
 
  private:
-  /// Fields of a simulation without the points of the step before, and of one of these.
-  static constexpr std::size_t kFields =
-      sizeof(ifa::Simulation<double>) / sizeof(double) -
-      ifa::Simulation<double>::kMaxPoints * sizeof(ifa::LastPoint<double>) / sizeof(double);
-  static constexpr std::size_t kPointFields = sizeof(ifa::LastPoint<double>) / sizeof(double);
-
   bool take();
-  void load(std::size_t fields);
-  void store(unsigned lanes, std::size_t fields);
+  void load(std::size_t blocks);
+  void store(unsigned lanes, std::size_t blocks);
   void look();
   void arrive();
   void fly();
   void hit();
   void step();
   bool tell(std::size_t lane, Advance did, const KernelState<double>& before,
-            const KernelState<double>& state, bool touching);
-  void waitAtGround(unsigned hits, std::size_t lane) {
-    data_.wait(taken_[lane], (hits >> lane & 1U) != 0 ? Station::kImpact : Station::kContact);
+            const KernelState<double>& state);
+  void tellStep(std::size_t lane, bool halved, bool rests);
+  void tellLift(std::size_t lane);
+  void keepImpulses();
+  void keepBefore();
+  void waitAtGround(std::size_t lane) {
+    data_.wait(taken_[lane], static_cast<std::size_t>(next_[lane]));
   }
+  void chooseNext();
   [[nodiscard]] BatchStepper::Data::Place& place(std::size_t lane) {
     return data_.places[taken_[lane]];
   }
@@ -82,14 +76,20 @@ class BatchRun {
   [[nodiscard]] static KernelState<double> stateOf(const ifa::KernelState<Lanes>& all,
                                                    std::size_t lane);
 
+  static constexpr std::size_t kBlocks = LaneSim::kBlocksWithout;
+
   BatchStepper& batch_;
   BatchStepper::Data& data_;
   Lanes limit_;
   BatchListener& listener_;
-  Station station_ = Station::kArrive;
+  std::size_t station_ = kArrive;
   std::size_t taken_[kLanes] = {}, count_ = 0;  ///< places in the lanes
   unsigned used_ = 0;                           ///< lanes that have one, as bits
   LaneSim sim_;
+  KernelState<double> before_[kLanes];
+  alignas(kLanes * sizeof(double)) double impulse_[3][kLanes] = {};  ///< of all points, N s
+  unsigned touching_ = 0;
+  alignas(kLanes * sizeof(double)) double next_[kLanes] = {};  ///< stations of what is at the ground
   ifa::Rotation<Lanes> rotation_{ifa::Quat<Lanes>{}};
   LaneGround ground_;
   ifa::ContactPhase<Lanes, LaneGround> contact_;
@@ -102,7 +102,7 @@ bool BatchRun::take() {
     if (data_.waiting[s].size() > data_.waiting[most].size()) most = s;
   }
   auto& waiting = data_.waiting[most];
-  station_ = static_cast<Station>(most);
+  station_ = most;
   count_ = std::min(kLanes, waiting.size());
   used_ = (1U << count_) - 1;
   for (std::size_t lane = 0; lane < count_; ++lane) {
@@ -114,23 +114,25 @@ bool BatchRun::take() {
   return count_ > 0;
 }
 
-/// Takes the first `fields` numbers of the simulations into the lanes.
-void BatchRun::load(std::size_t fields) {
-  alignas(64) std::int64_t from[kLanes];
-  const double* base = numbers(data_.places[0]);
-  for (std::size_t lane = 0; lane < kLanes; ++lane) from[lane] = numbers(place(lane)) - base;
-  const auto index = ifa::loadIndices<Lanes>(from);
-  Lanes* to = reinterpret_cast<Lanes*>(&sim_);
-  for (std::size_t f = 0; f < fields; ++f) to[f] = ifa::fromTable<Lanes>(base + f, index);
+/// Takes the first `blocks` of the simulations into the lanes.
+void BatchRun::load(std::size_t blocks) {
+  const double* from[kLanes];
+  for (std::size_t lane = 0; lane < kLanes; ++lane) from[lane] = numbers(place(lane));
+  auto* to = reinterpret_cast<Lanes*>(&sim_);
+  for (std::size_t b = 0; b < blocks; ++b) {
+    ifa::loadBlock(from, to + b * ifa::kBlock);
+    for (const double*& at : from) at += ifa::kBlock;
+  }
 }
 
 /// Gives them back from `lanes`.
-void BatchRun::store(unsigned lanes, std::size_t fields) {
-  const auto* from = reinterpret_cast<const double*>(&sim_);
-  for (; lanes != 0; lanes &= lanes - 1) {
-    const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-    double* to = numbers(place(lane));
-    for (std::size_t f = 0; f < fields; ++f) to[f] = from[f * kLanes + lane];
+void BatchRun::store(unsigned lanes, std::size_t blocks) {
+  double* to[kLanes];
+  for (std::size_t lane = 0; lane < kLanes; ++lane) to[lane] = numbers(place(lane));
+  const auto* from = reinterpret_cast<const Lanes*>(&sim_);
+  for (std::size_t b = 0; b < blocks; ++b) {
+    ifa::storeBlock(from + b * ifa::kBlock, lanes, to);
+    for (double*& at : to) at += ifa::kBlock;
   }
 }
 
@@ -160,63 +162,78 @@ void BatchRun::look() {
   ground_.measure(sim_.state, rotation_);
 }
 
+/// Says at which station what is at the ground waits next, and whether it touches.
+void BatchRun::chooseNext() {
+  const auto ahead = contact_.outlook(sim_, ground_);
+  touching_ = ifa::laneBits(ahead.touches);
+  Lanes next = Lanes(static_cast<double>(kContact)) + ifa::laneMin(ahead.heldPoints, Lanes(kContacts - 1));
+  ifa::setWhere(ahead.hits, next,
+                Lanes(static_cast<double>(kImpact) - 1) + ifa::laneMin(ahead.hitPoints, Lanes(kImpacts)));
+  ifa::storeLanes(next, next_);
+}
+
 /// Tells one piece. False when the simulation that it belongs to does not go on.
 bool BatchRun::tell(std::size_t lane, Advance did, const KernelState<double>& before,
-                    const KernelState<double>& state, bool touching) {
+                    const KernelState<double>& state) {
   auto& here = place(lane);
   here.renewed = false;
-  const auto& sum = contact_.impulse();
-  const Vec<double> impulse = {ifa::laneOf(sum.x, lane), ifa::laneOf(sum.y, lane),
-                               ifa::laneOf(sum.z, lane)};
-  const bool goesOn =
-      listener_.hear(batch_, taken_[lane], {did, before, state, impulse, touching});
+  const Vec<double> impulse = {impulse_[0][lane], impulse_[1][lane], impulse_[2][lane]};
+  const bool touching = (touching_ >> lane & 1U) != 0;
+  const bool goesOn = listener_.hear(batch_, taken_[lane], {did, before, state, impulse, touching});
   return goesOn && !here.renewed;
 }
 
+void BatchRun::keepImpulses() {
+  const auto& sum = contact_.impulse();
+  ifa::storeLanes(sum.x, impulse_[0]);
+  ifa::storeLanes(sum.y, impulse_[1]);
+  ifa::storeLanes(sum.z, impulse_[2]);
+}
+
+void BatchRun::keepBefore() {
+  for (std::size_t lane = 0; lane < count_; ++lane) before_[lane] = place(lane).sim.state;
+}
+
 void BatchRun::arrive() {
-  load(kFields);
+  load(kBlocks);
   sim_.kinetic = ifa::kineticEnergy(data_.body, sim_.state.velocity, sim_.state.w);
   look();
-  store(used_, kFields);
-  const unsigned hits = ifa::laneBits(contact_.hits(sim_, ground_));
-  for (std::size_t lane = 0; lane < count_; ++lane) waitAtGround(hits, lane);
+  chooseNext();
+  store(used_, kBlocks);
+  for (std::size_t lane = 0; lane < count_; ++lane) waitAtGround(lane);
 }
 
 void BatchRun::fly() {
-  load(kFields);
+  load(kBlocks);
   const unsigned touches = ifa::laneBits(ifa::flyOn(data_.body, limit_, sim_));
   sim_.kinetic = ifa::kineticEnergy(data_.body, sim_.state.velocity, sim_.state.w);
-  unsigned hits = 0;
   if (touches != 0) {
     look();
-    hits = ifa::laneBits(contact_.hits(sim_, ground_));
+    chooseNext();
   }
-  store(used_, kFields);
+  store(used_, kBlocks);
   for (std::size_t lane = 0; lane < count_; ++lane) {
     const bool touched = (touches >> lane & 1U) != 0;
     const auto& state = place(lane).sim.state;
-    if (!tell(lane, touched ? Advance::kTouch : Advance::kFlight, state, state, false)) continue;
+    if (!tell(lane, touched ? Advance::kTouch : Advance::kFlight, state, state)) continue;
     if (touched) {
-      waitAtGround(hits, lane);
+      waitAtGround(lane);
     } else {
-      data_.wait(taken_[lane], Station::kFlight);
+      data_.wait(taken_[lane], kFlight);
     }
   }
 }
 
 void BatchRun::hit() {
-  load(kFields);
+  load(kBlocks);
   look();
   contact_.impact(sim_, rotation_, ground_);
-  const unsigned hits = ifa::laneBits(contact_.hits(sim_, ground_));
-  const unsigned touching = ifa::laneBits(contact_.touches(ground_));
+  chooseNext();
+  keepImpulses();
+  keepBefore();
+  store(used_, kBlocks);
   for (std::size_t lane = 0; lane < count_; ++lane) {
-    const KernelState<double> before = place(lane).sim.state;
-    store(1U << lane, kFields);
-    if (tell(lane, Advance::kImpact, before, place(lane).sim.state,
-             (touching >> lane & 1U) != 0)) {
-      waitAtGround(hits, lane);
-    }
+    if (tell(lane, Advance::kImpact, before_[lane], place(lane).sim.state)) waitAtGround(lane);
   }
 }
 
@@ -225,49 +242,54 @@ void BatchRun::step() {
   for (std::size_t lane = 0; lane < count_; ++lane) {
     points = std::max(points, static_cast<std::size_t>(place(lane).sim.lastCount));
   }
-  load(kFields + points * kPointFields);
+  load(LaneSim::blocks(points));
   look();
   contact_.tryStep(limit_, sim_, rotation_, ground_);
   ground_.goOn();
-  const unsigned again = ifa::laneBits(contact_.triesAgain());
-  const unsigned lifts = ifa::laneBits(contact_.lifts());
-  const unsigned halves = ifa::laneBits(contact_.halves());
-  const unsigned rests = ifa::laneBits(contact_.rests());
-  const unsigned hits = ifa::laneBits(contact_.hits(sim_, ground_));
-  const unsigned touching = ifa::laneBits(contact_.touches(ground_));
-  points = static_cast<std::size_t>(contact_.points());
+  chooseNext();
+  keepImpulses();
+  keepBefore();
+  const unsigned again = ifa::laneBits(contact_.triesAgain()) & used_;
+  const unsigned lifts = ifa::laneBits(contact_.lifts()) & used_;
+  const unsigned taken = used_ & ~(again | lifts);
+  const unsigned halves = ifa::laneBits(contact_.halves()) & taken;
+  const unsigned rests = ifa::laneBits(contact_.rests()) & taken;
+  points = std::max(points, static_cast<std::size_t>(contact_.points()));
+  store(used_, taken != 0 ? LaneSim::blocks(points) : kBlocks);
   for (std::size_t lane = 0; lane < count_; ++lane) {
     const unsigned bit = 1U << lane;
-    auto& here = place(lane);
-    if ((again & bit) != 0) {
-      store(bit, kFields);
-      data_.wait(taken_[lane], Station::kContact);
-      continue;
-    }
-    KernelState<double> before = here.sim.state;
-    if ((lifts & bit) != 0) {
-      store(bit, kFields);
-      if (!tell(lane, Advance::kLift, before, here.sim.state, false)) continue;
-      if (here.sim.stuck > ifa::ContactRules::kLiftsToRest) {
-        tell(lane, Advance::kRest, before, here.sim.state, false);
-      } else {
-        data_.wait(taken_[lane], Station::kFlight);
-      }
-      continue;
-    }
-    store(bit, kFields + points * kPointFields);
-    const bool touches = (touching & bit) != 0;
-    if ((halves & bit) != 0) {
-      const KernelState<double> middle = stateOf(contact_.middle(), lane);
-      if (!tell(lane, Advance::kContact, before, middle, touches)) continue;
-      before = middle;
-    }
-    if (!tell(lane, Advance::kContact, before, here.sim.state, touches)) continue;
-    if ((rests & bit) != 0) {
-      tell(lane, Advance::kRest, before, here.sim.state, touches);
+    if ((taken & bit) != 0) {
+      tellStep(lane, (halves & bit) != 0, (rests & bit) != 0);
+    } else if ((again & bit) != 0) {
+      data_.wait(taken_[lane], station_);
     } else {
-      waitAtGround(hits, lane);
+      tellLift(lane);
     }
+  }
+}
+
+void BatchRun::tellStep(std::size_t lane, bool halved, bool rests) {
+  const KernelState<double>& end = place(lane).sim.state;
+  if (halved) {
+    const KernelState<double> middle = stateOf(contact_.middle(), lane);
+    if (!tell(lane, Advance::kContact, before_[lane], middle)) return;
+    before_[lane] = middle;
+  }
+  if (!tell(lane, Advance::kContact, before_[lane], end)) return;
+  if (rests) {
+    tell(lane, Advance::kRest, before_[lane], end);
+  } else {
+    waitAtGround(lane);
+  }
+}
+
+void BatchRun::tellLift(std::size_t lane) {
+  const auto& sim = place(lane).sim;
+  if (!tell(lane, Advance::kLift, sim.state, sim.state)) return;
+  if (sim.stuck > ifa::ContactRules::kLiftsToRest) {
+    tell(lane, Advance::kRest, sim.state, sim.state);
+  } else {
+    data_.wait(taken_[lane], kFlight);
   }
 }
 
@@ -302,7 +324,7 @@ void BatchStepper::start(std::size_t place, const KernelState<double>& state, do
   Data::Place& here = data_->places[place];
   here.sim.begin(state, restitution);
   here.renewed = true;
-  data_->wait(place, Station::kArrive);
+  data_->wait(place, kArrive);
 }
 
 void BatchStepper::run(double limit, BatchListener& listener) {

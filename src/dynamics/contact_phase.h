@@ -51,9 +51,16 @@ class ContactPhase {
 
   explicit ContactPhase(const BodyModel& body) : body_(body) {}
 
-  /// Lanes in which a vertex at the ground comes down faster than a step may take.
+  /// What each lane's vertices are about to do.
+  struct Outlook {
+    Mask hits;     ///< one at the ground comes down faster than a step may take
+    Mask touches;  ///< one is at the ground and does not part from it
+    R hitPoints;   ///< points of an impact
+    R heldPoints;  ///< about as many of a step
+  };
+  [[nodiscard]] Outlook outlook(const Sim& sim, const Ground& ground) const;
+  /// Parts of it, for one lane.
   [[nodiscard]] Mask hits(const Sim& sim, const Ground& ground) const;
-  /// Lanes in which a vertex is at the ground and does not part from it.
   [[nodiscard]] Mask touches(const Ground& ground) const;
   /// An impact: changes velocities, and what `ground` has now of them.
   void impact(Sim& sim, const Rotation<R>& rotation, Ground& ground);
@@ -127,6 +134,24 @@ LaneMask<R> ContactPhase<R, Ground>::touches(const Ground& ground) const {
     any = any | ((ground.gap(i) <= near) & (ground.rate(i) <= slow));
   }
   return any;
+}
+
+template <class R, class Ground>
+auto ContactPhase<R, Ground>::outlook(const Sim& sim, const Ground& ground) const -> Outlook {
+  const R zero(0.0), one(1.0), slop(body_.slop), together(kTogether), near(body_.hitGap);
+  const R fast(-Rules::kLandingSpeed), slow(Rules::kTouchingSpeed), parting(Rules::kPartingSpeed);
+  Outlook all{Mask(false), Mask(false), zero, zero};
+  for (int i = 0; i < ground.count(); ++i) {
+    const R gap = ground.gap(i), rate = ground.rate(i);
+    const Mask at = gap <= near;
+    all.hits = all.hits | (at & (rate < fast));
+    all.touches = all.touches | ((gap <= slop) & (rate <= slow));
+    const Mask hit = gap <= laneMax(slop, (zero - rate) * together), held = at & (rate < parting);
+    setWhere(hit, all.hitPoints, all.hitPoints + one);
+    setWhere(held, all.heldPoints, all.heldPoints + one);
+  }
+  all.hits = all.hits & (sim.impactsHere < R(Rules::kImpactsAtOnce));
+  return all;
 }
 
 template <class R, class Ground>
