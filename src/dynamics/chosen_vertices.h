@@ -23,10 +23,14 @@ class ChosenVertices {
   void clear() { std::fill(counts_, counts_ + kLanes, 0); }
   void add(const LaneMask<R>& lanes, std::size_t vertex) {
     for (unsigned bits = laneBits(lanes); bits != 0; bits &= bits - 1) {
+      addTo(static_cast<std::size_t>(std::countr_zero(bits)), static_cast<std::int64_t>(vertex));
+    }
+  }
+  /// Adds to each lane one of its own, told as a number.
+  void addOwn(const LaneMask<R>& lanes, const R& vertex) {
+    for (unsigned bits = laneBits(lanes); bits != 0; bits &= bits - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-      if (counts_[lane] >= static_cast<double>(kMost)) continue;
-      number(static_cast<std::size_t>(counts_[lane]), lane) = static_cast<std::int64_t>(vertex);
-      counts_[lane] += 1;
+      addTo(lane, static_cast<std::int64_t>(laneOf(vertex, lane)));
     }
   }
 
@@ -59,6 +63,13 @@ class ChosenVertices {
   }
 
  private:
+  void addTo(std::size_t lane, std::int64_t vertex) {
+    const auto place = static_cast<std::size_t>(counts_[lane]);
+    if (place >= kMost) return;
+    numbers_[place * kLanes + lane] = vertex;
+    counts_[lane] += 1;
+  }
+
   alignas(kLanes * sizeof(double)) double counts_[kLanes];
   alignas(kLanes * sizeof(double)) std::int64_t numbers_[kMost * kLanes];
 };

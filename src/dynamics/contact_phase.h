@@ -275,7 +275,7 @@ R ContactPhase<R, Ground>::overshoot(const R& step, const Ground& ground) const 
     if (!anyLane(falls)) continue;
     const HeightCubic<R> height(ground.gap(i), ground.rate(i), ground.nextGap(i),
                                 ground.nextRate(i), step);
-    setWhere(falls, first, laneMin(first, height.firstTouch()));
+    setWhere(falls, first, laneMin(first, height.firstTouch(falls)));
   }
   return first * step;
 }

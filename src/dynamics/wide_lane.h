@@ -122,19 +122,19 @@ IFA_WIDE(WideIndex, loadIndices<Wide>, (const std::int64_t* from), v,
          hn::Load(WideIndexTag(), from + i * kInRegister))
 IFA_WIDE(WideIndex, orZero, (const WideMask& mask, const WideIndex& index), v,
          hn::IfThenElseZero(hn::RebindMask(WideIndexTag(), mask.m[i]), index.v[i]))
+IFA_WIDE(WideIndex, indexOf, (const Wide& number), v, hn::ConvertTo(WideIndexTag(), number.v[i]))
 template <>
 IFA_WIDE(Wide, fromTable<Wide>, (const double* table, const WideIndex& index), v,
          hn::GatherIndex(WideTag(), table, index.v[i]))
 template <>
 HWY_INLINE Wide fromRows<Wide>(const double* rows, const WideIndex& row) {
   constexpr int kShift = std::countr_zero(kRegisters * kInRegister);
-  Wide result;
+  WideIndex index;
   for (std::size_t i = 0; i < kRegisters; ++i) {
-    const auto lane = hn::Iota(WideIndexTag(), static_cast<hn::TFromD<WideIndexTag>>(i * kInRegister));
-    result.v[i] =
-        hn::GatherIndex(WideTag(), rows, hn::Add(hn::ShiftLeft<kShift>(row.v[i]), lane));
+    const auto lane = hn::Iota(WideIndexTag(), static_cast<std::int64_t>(i * kInRegister));
+    index.v[i] = hn::Add(hn::ShiftLeft<kShift>(row.v[i]), lane);
   }
-  return result;
+  return fromTable<Wide>(rows, index);
 }
 #undef IFA_WIDE
 
