@@ -13,7 +13,13 @@ namespace ifa {
 /// What a simulation waits for. Impacts and steps in contact of different numbers of points take
 /// different times, and wait apart: there are kImpacts and kContacts stations of these from the
 /// first on.
-enum Station : std::size_t { kArrive, kFlight, kImpact, kContact = kImpact + 3, kStations = kContact + 4 };
+enum Station : std::size_t {
+  kArrive,
+  kFlight,
+  kImpact,
+  kContact = kImpact + 3,
+  kStations = kContact + 4
+};
 inline constexpr std::size_t kImpacts = 3, kContacts = 4;
 
 struct BatchStepper::Data {
@@ -27,9 +33,7 @@ struct BatchStepper::Data {
 
   Data(const BodyModel& model, std::size_t count) : body(model), places(count, Place(model)) {}
 
-  void wait(std::size_t place, std::size_t station) {
-    waiting[station].push_back(place);
-  }
+  void wait(std::size_t place, std::size_t station) { waiting[station].push_back(place); }
 
   const BodyModel& body;
   std::vector<Place> places;

@@ -9,8 +9,8 @@
   (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "dynamics/batch_stepper.cpp"
-#include "hwy/foreach_target.h"  // first of Highway's
 #include "dynamics/lanes_of_target.h"
+#include "hwy/foreach_target.h"  // first of Highway's
 
 HWY_BEFORE_NAMESPACE();
 namespace ifa {
@@ -52,6 +52,7 @@ class BatchRun {
   bool take();
   void load(std::size_t blocks);
   void store(unsigned lanes, std::size_t blocks);
+  void coverLists();
   void look();
   void arrive();
   void fly();
@@ -89,7 +90,8 @@ class BatchRun {
   KernelState<double> before_[kLanes];
   alignas(kLanes * sizeof(double)) double impulse_[3][kLanes] = {};  ///< of all points, N s
   unsigned touching_ = 0;
-  alignas(kLanes * sizeof(double)) double next_[kLanes] = {};  ///< stations of what is at the ground
+  alignas(kLanes *
+          sizeof(double)) double next_[kLanes] = {};  ///< stations of what is at the ground
   ifa::Rotation<Lanes> rotation_{ifa::Quat<Lanes>{}};
   LaneGround ground_;
   ifa::ContactPhase<Lanes, LaneGround> contact_;
@@ -118,9 +120,9 @@ bool BatchRun::take() {
 void BatchRun::load(std::size_t blocks) {
   const double* from[kLanes];
   for (std::size_t lane = 0; lane < kLanes; ++lane) from[lane] = numbers(place(lane));
-  auto* to = reinterpret_cast<Lanes*>(&sim_);
+  auto* to = reinterpret_cast<double*>(&sim_);
   for (std::size_t b = 0; b < blocks; ++b) {
-    ifa::loadBlock(from, to + b * ifa::kBlock);
+    ifa::loadBlock(from, to + b * ifa::kBlock * kLanes);
     for (const double*& at : from) at += ifa::kBlock;
   }
 }
@@ -129,9 +131,9 @@ void BatchRun::load(std::size_t blocks) {
 void BatchRun::store(unsigned lanes, std::size_t blocks) {
   double* to[kLanes];
   for (std::size_t lane = 0; lane < kLanes; ++lane) to[lane] = numbers(place(lane));
-  const auto* from = reinterpret_cast<const Lanes*>(&sim_);
+  const auto* from = reinterpret_cast<const double*>(&sim_);
   for (std::size_t b = 0; b < blocks; ++b) {
-    ifa::storeBlock(from + b * ifa::kBlock, lanes, to);
+    ifa::storeBlock(from + b * ifa::kBlock * kLanes, lanes, to);
     for (double*& at : to) at += ifa::kBlock;
   }
 }
@@ -144,21 +146,28 @@ KernelState<double> BatchRun::stateOf(const ifa::KernelState<Lanes>& all, std::s
   return one;
 }
 
+/// Makes sure that the lists are good, and takes them.
+void BatchRun::coverLists() {
+  constexpr std::size_t kSeen = 5;
+  const Lanes seen[kSeen] = {rotation_.rows[2].x, rotation_.rows[2].y, rotation_.rows[2].z,
+                             sim_.state.position.z, sim_.kinetic};
+  alignas(kLanes * sizeof(double)) double of[kSeen][kLanes];
+  for (std::size_t i = 0; i < kSeen; ++i) ifa::storeLanes(seen[i], of[i]);
+  const GroundWatch* watches[kLanes];
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    auto& watch = place(lane).watch;
+    if (lane < count_) {
+      watch.cover(of[3][lane], {of[0][lane], of[1][lane], of[2][lane]}, of[4][lane]);
+    }
+    watches[lane] = &watch;
+  }
+  ground_.takeLists(watches);
+}
+
 /// Measures the vertices that a step from here can bring to the ground.
 void BatchRun::look() {
-  const GroundWatch* watches[kLanes];
   rotation_ = ifa::Rotation<Lanes>(sim_.state.q);
-  if (!data_.places[0].watch.all()) {
-    for (std::size_t lane = 0; lane < count_; ++lane) {
-      const auto& up = rotation_.rows[2];
-      place(lane).watch.cover(ifa::laneOf(sim_.state.position.z, lane),
-                              {ifa::laneOf(up.x, lane), ifa::laneOf(up.y, lane),
-                               ifa::laneOf(up.z, lane)},
-                              ifa::laneOf(sim_.kinetic, lane));
-      watches[lane] = &place(lane).watch;
-    }
-    ground_.takeLists(watches, count_);
-  }
+  if (!data_.places[0].watch.all()) coverLists();
   ground_.measure(sim_.state, rotation_);
 }
 
@@ -166,9 +175,11 @@ void BatchRun::look() {
 void BatchRun::chooseNext() {
   const auto ahead = contact_.outlook(sim_, ground_);
   touching_ = ifa::laneBits(ahead.touches);
-  Lanes next = Lanes(static_cast<double>(kContact)) + ifa::laneMin(ahead.heldPoints, Lanes(kContacts - 1));
-  ifa::setWhere(ahead.hits, next,
-                Lanes(static_cast<double>(kImpact) - 1) + ifa::laneMin(ahead.hitPoints, Lanes(kImpacts)));
+  Lanes next =
+      Lanes(static_cast<double>(kContact)) + ifa::laneMin(ahead.heldPoints, Lanes(kContacts - 1));
+  ifa::setWhere(
+      ahead.hits, next,
+      Lanes(static_cast<double>(kImpact) - 1) + ifa::laneMin(ahead.hitPoints, Lanes(kImpacts)));
   ifa::storeLanes(next, next_);
 }
 

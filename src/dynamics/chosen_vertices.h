@@ -26,6 +26,17 @@ class ChosenVertices {
       addTo(static_cast<std::size_t>(std::countr_zero(bits)), static_cast<std::int64_t>(vertex));
     }
   }
+  /// Adds those of each lane's set, a whole number with a bit for each vertex from number `first`
+  /// on.
+  void addSets(const R& sets, std::size_t first) {
+    alignas(kLanes * sizeof(double)) double numbers[kLanes];
+    storeLanes(sets, numbers);
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      for (auto bits = static_cast<std::uint64_t>(numbers[lane]); bits != 0; bits &= bits - 1) {
+        addTo(lane, static_cast<std::int64_t>(first) + std::countr_zero(bits));
+      }
+    }
+  }
   /// Adds to each lane one of its own, told as a number.
   void addOwn(const LaneMask<R>& lanes, const R& vertex) {
     for (unsigned bits = laneBits(lanes); bits != 0; bits &= bits - 1) {
@@ -72,6 +83,37 @@ class ChosenVertices {
 
   alignas(kLanes * sizeof(double)) double counts_[kLanes];
   alignas(kLanes * sizeof(double)) std::int64_t numbers_[kMost * kLanes];
+};
+
+/// Gathers vertices for ChosenVertices, in rising order, without a branch for each.
+template <class R, std::size_t kMost>
+class VertexSets {
+ public:
+  explicit VertexSets(ChosenVertices<R, kMost>& chosen) : chosen_(chosen) { chosen.clear(); }
+
+  void add(const LaneMask<R>& lanes, int vertex) {
+    if constexpr (LaneTraits<R>::kLanes == 1) {
+      chosen_.add(lanes, static_cast<std::size_t>(vertex));
+    } else {
+      if (vertex - first_ >= kBits) finish(vertex);
+      setWhere(lanes, sets_, sets_ + R(static_cast<double>(std::int64_t{1} << (vertex - first_))));
+    }
+  }
+  /// To be called after the last.
+  void finish(int next = 0) {
+    if constexpr (LaneTraits<R>::kLanes > 1) {
+      chosen_.addSets(sets_, static_cast<std::size_t>(first_));
+      sets_ = R(0.0);
+      first_ = next;
+    }
+  }
+
+ private:
+  static constexpr int kBits = 52;  ///< of a double
+
+  ChosenVertices<R, kMost>& chosen_;
+  R sets_{};
+  int first_ = 0;
 };
 
 }  // namespace ifa

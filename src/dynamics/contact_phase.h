@@ -156,17 +156,18 @@ auto ContactPhase<R, Ground>::outlook(const Sim& sim, const Ground& ground) cons
 
 template <class R, class Ground>
 void ContactPhase<R, Ground>::gatherHits(const Ground& ground) {
-  chosen_.clear();
+  VertexSets sets(chosen_);
   const R zero(0.0), slop(body_.slop), together(kTogether);
   for (int i = 0; i < ground.count(); ++i) {
-    chosen_.add(ground.gap(i) <= laneMax(slop, (zero - ground.rate(i)) * together), i);
+    sets.add(ground.gap(i) <= laneMax(slop, (zero - ground.rate(i)) * together), i);
   }
+  sets.finish();
 }
 
 /// Vertices at the ground, and those that sink to it within the step without a bounce to come.
 template <class R, class Ground>
 void ContactPhase<R, Ground>::gatherHeld(const R& step, const Ground& ground) {
-  chosen_.clear();
+  VertexSets sets(chosen_);
   const R zero(0.0), near(body_.hitGap), parting(Rules::kPartingSpeed);
   const R landing(-Rules::kLandingSpeed), back(-2.0);
   const R fall = R(0.5 * kGravity) * step;
@@ -180,8 +181,9 @@ void ContactPhase<R, Ground>::gatherHeld(const R& step, const Ground& ground) {
     const Mask stays = at & (rate < parting);
     const Mask sinks =
         (gap + (rate - fall) * step < zero) & (rate * step >= back * gap) & (rate >= landing) & !at;
-    chosen_.add(close & (stays | sinks), i);
+    sets.add(close & (stays | sinks), i);
   }
+  sets.finish();
 }
 
 /// Of more than a contact can have, those that are spread best.

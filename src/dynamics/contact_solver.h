@@ -48,7 +48,7 @@ struct WorldInertia {
 /// One touching vertex, in each lane its own.
 template <class R>
 struct ContactPoint {
-  LaneMask<R> here{};              ///< lanes that have it; in others its impulse is 0
+  LaneMask<R> here{};                    ///< lanes that have it; in others its impulse is 0
   Vec<R> place{};                        ///< body frame, m
   R gap{}, rate{};                       ///< height, m, and its rate, m/s, where the step begins
   Vec<R> r{};                            ///< from the centre of mass, world frame, m

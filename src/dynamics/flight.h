@@ -130,8 +130,8 @@ auto FlightSegment<R>::lowest(const Ends& ends, const Candidates& found) const -
 template <class R>
 LaneMask<R> FlightSegment<R>::isLate(const Ends& ends, const HeightCubic<R>& height,
                                      const First& first) const {
-  return (first.share <= R(1.0)) & (laneMin(height.h0, height.at(first.share)) >
-                                    ends.bend * first.share * first.share);
+  return (first.share <= R(1.0)) &
+         (laneMin(height.h0, height.at(first.share)) > ends.bend * first.share * first.share);
 }
 
 /// Lists what may touch sooner than the lowest does, in the order of the hull; but the first of all

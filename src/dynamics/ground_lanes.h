@@ -20,9 +20,10 @@ class LaneRows {
 
   explicit LaneRows(std::size_t rows) : rows_(rows) {}
 
+  [[nodiscard]] const double* row(int i) const { return rows_[static_cast<std::size_t>(i)].lanes; }
+  [[nodiscard]] double* row(int i) { return rows_[static_cast<std::size_t>(i)].lanes; }
   [[nodiscard]] R operator[](int i) const { return loadLanes<R>(row(i)); }
-  void set(int i, const R& value) { storeLanes(value, rows_[static_cast<std::size_t>(i)].lanes); }
-  [[nodiscard]] double& lane(std::size_t i, std::size_t lane) { return rows_[i].lanes[lane]; }
+  void set(int i, const R& value) { storeLanes(value, row(i)); }
   /// Each lane's own row.
   [[nodiscard]] R at(const typename LaneTraits<R>::Index& i) const {
     return fromRows<R>(rows_[0].lanes, i);
@@ -32,7 +33,6 @@ class LaneRows {
   struct alignas(kLanes * sizeof(double)) Row {
     double lanes[kLanes];
   };
-  [[nodiscard]] const double* row(int i) const { return rows_[static_cast<std::size_t>(i)].lanes; }
 
   std::vector<Row> rows_;
 };
@@ -50,16 +50,13 @@ class GroundLanes {
         shared_(GroundWatch(body).all()),
         count_(shared_ ? static_cast<int>(body.x.size()) : 0),
         numbers_(body.x.size()),
-        x_(body.rows.size()),
-        y_(x_),
-        z_(x_),
-        vertex_(x_),
-        frames_{{x_, x_}, {x_, x_}} {
+        lists_(shared_ ? 0 : kFields * body.rows.size()),
+        frames_{Frame(body.rows.size()), Frame(body.rows.size())} {
     std::iota(numbers_.begin(), numbers_.end(), 0.0);
   }
 
-  /// Takes each lane's list, of `lanes` of them; the others have no vertices.
-  void takeLists(const GroundWatch* const* watches, std::size_t lanes);
+  /// Takes each lane's list, where they are not shared.
+  void takeLists(const GroundWatch* const* watches);
 
   void measure(const KernelState<R>& state, const Rotation<R>& rotation) {
     measure(state, rotation, frames_[now_]);
@@ -78,24 +75,31 @@ class GroundLanes {
   [[nodiscard]] Vec<R> place(int i) const {
     const auto k = static_cast<std::size_t>(i);
     if (shared_) return {R(body_.rows.x[k]), R(body_.rows.y[k]), R(body_.rows.z[k])};
-    return {x_[i], y_[i], z_[i]};
+    return {list(0, i), list(1, i), list(2, i)};
   }
 
   [[nodiscard]] R gapAt(const Index& i) const { return frames_[now_].gap.at(i); }
   [[nodiscard]] R rateAt(const Index& i) const { return frames_[now_].rate.at(i); }
   [[nodiscard]] Vec<R> placeAt(const Index& i) const {
-    if (!shared_) return {x_.at(i), y_.at(i), z_.at(i)};
+    if (!shared_) return {listAt(0, i), listAt(1, i), listAt(2, i)};
     return {fromTable<R>(body_.rows.x.data(), i), fromTable<R>(body_.rows.y.data(), i),
             fromTable<R>(body_.rows.z.data(), i)};
   }
   [[nodiscard]] R vertexAt(const Index& i) const {
-    return shared_ ? fromTable<R>(numbers_.data(), i) : vertex_.at(i);
+    return shared_ ? fromTable<R>(numbers_.data(), i) : listAt(3, i);
   }
 
  private:
   struct Frame {
+    explicit Frame(std::size_t rows) : gap(rows), rate(rows) {}
     LaneRows<R> gap, rate;
   };
+  static constexpr int kFields = GroundWatch::kListed;
+
+  [[nodiscard]] R list(int field, int i) const { return lists_[i * kFields + field]; }
+  [[nodiscard]] R listAt(int field, const Index& i) const {
+    return fromRows<R>(lists_.row(field), times<kFields>(i));
+  }
 
   void measure(const KernelState<R>& state, const Rotation<R>& rotation, Frame& frame);
 
@@ -103,31 +107,23 @@ class GroundLanes {
   bool shared_;
   int count_;
   std::vector<double> numbers_;  ///< 0, 1, 2 ...
-  LaneRows<R> x_, y_, z_;        ///< of the lists, m
-  LaneRows<R> vertex_;           ///< likewise, -1 where a lane has no more
+  LaneRows<R> lists_;            ///< kFields rows for each, -1 where a lane has no more
   Frame frames_[2];
   int now_ = 0;
 };
 
 template <class R>
-void GroundLanes<R>::takeLists(const GroundWatch* const* watches, std::size_t lanes) {
-  if (shared_) return;
+void GroundLanes<R>::takeLists(const GroundWatch* const* watches) {
   count_ = 0;
-  for (std::size_t lane = 0; lane < lanes; ++lane) {
-    count_ = std::max(count_, watches[lane]->count());
-    for (int i = 0; i < watches[lane]->count(); ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      const auto& place = watches[lane]->place(i);
-      x_.lane(k, lane) = place.x;
-      y_.lane(k, lane) = place.y;
-      z_.lane(k, lane) = place.z;
-      vertex_.lane(k, lane) = watches[lane]->vertex(i);
-    }
-  }
+  const double* from[kLanes];
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    for (int i = lane < lanes ? watches[lane]->count() : 0; i < count_; ++i) {
-      vertex_.lane(static_cast<std::size_t>(i), lane) = -1;
-    }
+    count_ = std::max(count_, watches[lane]->count());
+    from[lane] = watches[lane]->listed();
+  }
+  constexpr int kPerBlock = static_cast<int>(kBlock) / kFields;
+  for (int i = 0; i < count_; i += kPerBlock) {
+    loadBlock(from, lists_.row(i * kFields));
+    for (const double*& at : from) at += kBlock;
   }
 }
 
@@ -139,7 +135,7 @@ void GroundLanes<R>::measure(const KernelState<R>& state, const Rotation<R>& rot
   for (int i = 0; i < count_; ++i) {
     const Vec<R> p = place(i);
     const R gap = height + (p.x * up.x + p.y * up.y + p.z * up.z);
-    frame.gap.set(i, shared_ ? gap : select(vertex_[i] < zero, far, gap));
+    frame.gap.set(i, shared_ ? gap : select(list(3, i) < zero, far, gap));
     frame.rate.set(i, rise + (p.x * turn.x + p.y * turn.y + p.z * turn.z));
   }
 }

@@ -22,7 +22,11 @@ constexpr double kSlower = 8, kSlow = 0.05;
 GroundWatch::GroundWatch(const BodyModel& body)
     : body_(body), rows_(body.rows), index_(body.rows.size()), all_(body.x.size() <= kFew) {
   std::iota(index_.begin(), index_.end(), 0);
-  if (!all_) return;
+  if (!all_) {
+    listed_.resize(body.rows.size() / 2);
+    for (Pair& pair : listed_) pair.numbers[3] = pair.numbers[7] = -1;
+    return;
+  }
   count_ = body.x.size();
   filled_ = body.rows.size();
 }
@@ -67,6 +71,19 @@ void GroundWatch::list(double height, const Vec<double>& up, double kinetic) {
     nearY[i] = nearY[count_ - 1];
     nearZ[i] = nearZ[count_ - 1];
   }
+  tellList();
+}
+
+void GroundWatch::tellList() {
+  double* to = listed_[0].numbers;
+  for (std::size_t i = 0; i < count_; ++i, to += kListed) {
+    to[0] = rows_.x[i];
+    to[1] = rows_.y[i];
+    to[2] = rows_.z[i];
+    to[3] = index_[i];
+  }
+  for (std::size_t i = count_; i < told_; ++i, to += kListed) to[3] = -1;
+  told_ = count_;
 }
 
 void GroundWatch::measure(const KernelState<double>& state, const Rotation<double>& rotation,

@@ -38,6 +38,11 @@ class GroundWatch {
   /// The end of the step is now.
   void goOn() { std::swap(now_, next_); }
 
+  /// Numbers of a vertex in listed().
+  static constexpr int kListed = 4;
+  /// The list as rows of x, y, z and number; -1 is the number of all beyond its end. Not there
+  /// where all() are listed.
+  [[nodiscard]] const double* listed() const { return listed_[0].numbers; }
   /// Every vertex is listed, always.
   [[nodiscard]] bool all() const { return all_; }
   /// Length of the list. Its vertices are in the hull's order.
@@ -63,13 +68,21 @@ class GroundWatch {
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   void measure(const KernelState<double>& state, const Rotation<double>& rotation,
                GroundFrame& frame) const;
+  void tellList();
   void list(double height, const Vec<double>& up, double kinetic);
+
+  /// Two vertices, as they are moved into lanes together.
+  struct alignas(2 * kListed * sizeof(double)) Pair {
+    double numbers[2 * kListed];
+  };
 
   const BodyModel& body_;
   VertexRows rows_;         ///< room for all vertices; the list is what comes first
   std::vector<int> index_;  ///< likewise
   std::size_t count_ = 0;   ///< length of the list ...
   std::size_t filled_ = 0;  ///< ... and filled up to a multiple of VertexRows::kChunk
+  std::vector<Pair> listed_;
+  std::size_t told_ = 0;  ///< vertices in it
   double listedHeight_ = 0;
   Vec<double> listedUp_{};
   double mostKinetic_ = -1;  ///< J, for which reach_ is enough

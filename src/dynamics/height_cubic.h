@@ -24,7 +24,8 @@ struct HeightCubic {
   [[nodiscard]] R slope(R s) const { return (R(3.0) * c3 * s + R(2.0) * c2) * s + c1; }
 
   /// First s in [0, 1] at which the height falls through zero, 2 if there is none. A vertex that
-  /// starts at or just under zero and rises must fall again first. Others than `lanes` get anything.
+  /// starts at or just under zero and rises must fall again first. Others than `lanes` get
+  /// anything.
   [[nodiscard]] R firstTouch(const LaneMask<R>& lanes = LaneMask<R>(true)) const {
     const R zero(0.0), none(2.0);
     const R discriminant = c2 * c2 - R(3.0) * c1 * c3;

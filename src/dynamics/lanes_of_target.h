@@ -41,11 +41,11 @@ HWY_BEFORE_NAMESPACE();
 namespace ifa {
 namespace HWY_NAMESPACE {
 // clang-format off: what needs a lane type comes after it
-#include "dynamics/lane.h"
-#include "dynamics/wide_lane.h"
 #include "dynamics/contact_phase.h"
 #include "dynamics/flight.h"
 #include "dynamics/ground_lanes.h"
+#include "dynamics/lane.h"
+#include "dynamics/wide_lane.h"
 // clang-format on
 }  // namespace HWY_NAMESPACE
 }  // namespace ifa

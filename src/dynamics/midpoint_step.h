@@ -4,8 +4,8 @@
 #define IFA_DYNAMICS_MIDPOINT_STEP_H
 
 #include "dynamics/contact_solver.h"
-#include "dynamics/lane_energy.h"
 #include "dynamics/free_rotation.h"
+#include "dynamics/lane_energy.h"
 
 namespace ifa {
 

@@ -49,11 +49,11 @@ struct LaneTraits<Wide> {
   static constexpr int kLanes = static_cast<int>(kRegisters * kInRegister);
 };
 
-#define IFA_WIDE(Result, Name, Parameters, Member, Expression)     \
-  HWY_INLINE Result Name Parameters {                              \
-    Result result;                                                 \
+#define IFA_WIDE(Result, Name, Parameters, Member, Expression)                  \
+  HWY_INLINE Result Name Parameters {                                           \
+    Result result;                                                              \
     for (std::size_t i = 0; i < kRegisters; ++i) result.Member[i] = Expression; \
-    return result;                                                 \
+    return result;                                                              \
   }
 IFA_WIDE(Wide, operator+, (const Wide& a, const Wide& b), v, hn::Add(a.v[i], b.v[i]))
 IFA_WIDE(Wide, operator-, (const Wide& a, const Wide& b), v, hn::Sub(a.v[i], b.v[i]))
@@ -88,9 +88,15 @@ HWY_INLINE bool anyLane(const WideMask& mask) {
 HWY_INLINE unsigned laneBits(const WideMask& mask) {
   unsigned bits = 0;
   for (std::size_t i = 0; i < kRegisters; ++i) {
+#if HWY_TARGET == HWY_AVX3
+    bits |= static_cast<unsigned>(mask.m[i].raw) << (i * kInRegister);
+#elif HWY_TARGET == HWY_AVX2
+    bits |= static_cast<unsigned>(_mm256_movemask_pd(mask.m[i].raw)) << (i * kInRegister);
+#else
     std::uint8_t part[8] = {};
     hn::StoreMaskBits(WideTag(), mask.m[i], part);
     bits |= static_cast<unsigned>(part[0]) << (i * kInRegister);
+#endif
   }
   return bits;
 }
@@ -122,10 +128,18 @@ IFA_WIDE(WideIndex, loadIndices<Wide>, (const std::int64_t* from), v,
          hn::Load(WideIndexTag(), from + i * kInRegister))
 IFA_WIDE(WideIndex, orZero, (const WideMask& mask, const WideIndex& index), v,
          hn::IfThenElseZero(hn::RebindMask(WideIndexTag(), mask.m[i]), index.v[i]))
-IFA_WIDE(WideIndex, indexOf, (const Wide& number), v, hn::ConvertTo(WideIndexTag(), number.v[i]))
-template <>
-IFA_WIDE(Wide, fromTable<Wide>, (const double* table, const WideIndex& index), v,
-         hn::GatherIndex(WideTag(), table, index.v[i]))
+    IFA_WIDE(WideIndex, indexOf, (const Wide& number), v,
+             hn::ConvertTo(WideIndexTag(), number.v[i])) template <>
+    IFA_WIDE(Wide, fromTable<Wide>, (const double* table, const WideIndex& index), v,
+             hn::GatherIndex(WideTag(), table, index.v[i]))
+    template <int kTimes>
+    HWY_INLINE WideIndex times(const WideIndex& index) {
+  constexpr int kShift = std::countr_zero(static_cast<unsigned>(kTimes));
+  static_assert(1 << kShift == kTimes);
+  WideIndex result;
+  for (std::size_t i = 0; i < kRegisters; ++i) result.v[i] = hn::ShiftLeft<kShift>(index.v[i]);
+  return result;
+}
 template <>
 HWY_INLINE Wide fromRows<Wide>(const double* rows, const WideIndex& row) {
   constexpr int kShift = std::countr_zero(kRegisters * kInRegister);
@@ -183,8 +197,8 @@ HWY_INLINE void transpose(hn::Vec<WideTag> (&square)[kInRegister]) {
 /// Numbers that are moved together between lanes and memory.
 inline constexpr std::size_t kBlock = 8;
 
-/// Takes kBlock numbers of each lane, which lie together at an aligned place, into `to`.
-HWY_INLINE void loadBlock(const double* const* from, Wide* to) {
+/// Takes kBlock numbers of each lane, which lie together at an aligned place, into rows of lanes.
+HWY_INLINE void loadBlock(const double* const* from, double* to) {
   const WideTag d;
   for (std::size_t i = 0; i < kRegisters; ++i) {
     for (std::size_t field = 0; field < kBlock; field += kInRegister) {
@@ -193,17 +207,21 @@ HWY_INLINE void loadBlock(const double* const* from, Wide* to) {
         square[k] = hn::Load(d, from[i * kInRegister + k] + field);
       }
       transpose(square);
-      for (std::size_t k = 0; k < kInRegister; ++k) to[field + k].v[i] = square[k];
+      for (std::size_t k = 0; k < kInRegister; ++k) {
+        hn::Store(square[k], d, to + ((field + k) * kRegisters + i) * kInRegister);
+      }
     }
   }
 }
 /// The way back, for as many lanes as `bits` has.
-HWY_INLINE void storeBlock(const Wide* from, unsigned bits, double* const* to) {
+HWY_INLINE void storeBlock(const double* from, unsigned bits, double* const* to) {
   const WideTag d;
   for (std::size_t i = 0; i < kRegisters; ++i) {
     for (std::size_t field = 0; field < kBlock; field += kInRegister) {
       hn::Vec<WideTag> square[kInRegister];
-      for (std::size_t k = 0; k < kInRegister; ++k) square[k] = from[field + k].v[i];
+      for (std::size_t k = 0; k < kInRegister; ++k) {
+        square[k] = hn::Load(d, from + ((field + k) * kRegisters + i) * kInRegister);
+      }
       transpose(square);
       for (std::size_t k = 0; k < kInRegister; ++k) {
         const std::size_t lane = i * kInRegister + k;
