@@ -9,8 +9,11 @@
   (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "dynamics/batch_stepper.cpp"
+// The first of Highway's headers, this one comes before all others that use them.
+// clang-format off
+#include "hwy/foreach_target.h"
 #include "dynamics/lanes_of_target.h"
-#include "hwy/foreach_target.h"  // first of Highway's
+// clang-format on
 
 HWY_BEFORE_NAMESPACE();
 namespace ifa {
@@ -340,17 +343,6 @@ void BatchStepper::start(std::size_t place, const KernelState<double>& state, do
 
 void BatchStepper::run(double limit, BatchListener& listener) {
   HWY_DYNAMIC_DISPATCH(runBatch)(*this, *data_, limit, listener);
-}
-
-ContactStep Piece::contactStep() const {
-  ContactStep step;
-  step.time = before.time;
-  step.duration = state.time - before.time;
-  step.impulse = {impulse.x, impulse.y, impulse.z};
-  step.before = rigidState(before);
-  step.after = rigidState(state);
-  step.touching = touching;
-  return step;
 }
 
 std::vector<std::string> instructionSets() {

@@ -8,23 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/advance.h"
 #include "dynamics/body_model.h"
 #include "dynamics/kernel_state.h"
-#include "model/contact_step.h"
+#include "dynamics/piece.h"
 
 namespace ifa {
-
-/// One piece of motion of one simulation. Lives while it is told.
-struct Piece {
-  Advance did;
-  const KernelState<double>& before;  ///< of kImpact and kContact: the state before
-  const KernelState<double>& state;   ///< where it ended
-  const Vec<double>& impulse;         ///< of kImpact and kContact: sum over all points, N s
-  bool touching;                      ///< likewise: a vertex is at the ground and does not part
-
-  [[nodiscard]] ContactStep contactStep() const;
-};
 
 class BatchStepper;
 

@@ -40,12 +40,14 @@
 HWY_BEFORE_NAMESPACE();
 namespace ifa {
 namespace HWY_NAMESPACE {
-// clang-format off: what needs a lane type comes after it
+// What needs a lane type comes after it.
+// clang-format off
+#include "dynamics/lane.h"
+#include "dynamics/wide_lane.h"
+#include "dynamics/lane_state.h"
 #include "dynamics/contact_phase.h"
 #include "dynamics/flight.h"
 #include "dynamics/ground_lanes.h"
-#include "dynamics/lane.h"
-#include "dynamics/wide_lane.h"
 // clang-format on
 }  // namespace HWY_NAMESPACE
 }  // namespace ifa

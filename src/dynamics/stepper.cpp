@@ -93,15 +93,4 @@ Advance Stepper::finish() {
 
 bool Stepper::touching() const { return phase_ != Phase::kFlight && contact_.touches(ground_); }
 
-ContactStep Stepper::contactStep() const {
-  ContactStep step;
-  step.time = before_.time;
-  step.duration = sim_.state.time - before_.time;
-  step.impulse = {impulse_.x, impulse_.y, impulse_.z};
-  step.before = rigidState(before_);
-  step.after = rigidState(sim_.state);
-  step.touching = touching();
-  return step;
-}
-
 }  // namespace ifa

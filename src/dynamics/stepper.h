@@ -3,14 +3,13 @@
 // all step with this one class, so the same start gives the same bits to each.
 #pragma once
 
-#include "dynamics/advance.h"
 #include "dynamics/body_model.h"
 #include "dynamics/contact_phase.h"
 #include "dynamics/flight.h"
 #include "dynamics/ground_watch.h"
 #include "dynamics/kernel_state.h"
+#include "dynamics/piece.h"
 #include "dynamics/simulation.h"
-#include "model/contact_step.h"
 
 namespace ifa {
 
@@ -36,7 +35,12 @@ class Stepper {
   [[nodiscard]] const Vec<double>& impulse() const { return impulse_; }
   /// A vertex is at the ground and does not part from it.
   [[nodiscard]] bool touching() const;
-  [[nodiscard]] ContactStep contactStep() const;
+  [[nodiscard]] ContactStep contactStep() const { return piece(Advance::kContact).contactStep(); }
+  /// What advance() did, for those who hear batches too. Good until the next call of it.
+  [[nodiscard]] Piece piece(Advance did) const {
+    const bool contact = did == Advance::kImpact || did == Advance::kContact;
+    return {did, before_, sim_.state, impulse_, contact && touching()};
+  }
 
  private:
   /// Where the simulation is.
