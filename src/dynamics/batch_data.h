@@ -16,11 +16,12 @@ namespace ifa {
 enum Station : std::size_t {
   kArrive,
   kFlight,
+  kHighFlight,
   kImpact,
-  kContact = kImpact + 3,
+  kContact = kImpact + 4,
   kStations = kContact + 4
 };
-inline constexpr std::size_t kImpacts = 3, kContacts = 4;
+inline constexpr std::size_t kImpacts = 4, kContacts = 4;
 
 struct BatchStepper::Data {
   struct Place {

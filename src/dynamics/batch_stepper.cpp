@@ -43,7 +43,7 @@ class BatchRun {
         step();
       } else if (station_ >= kImpact) {
         hit();
-      } else if (station_ == kFlight) {
+      } else if (station_ >= kFlight) {
         fly();
       } else {
         arrive();
@@ -58,9 +58,9 @@ class BatchRun {
   void coverLists();
   void look();
   void arrive();
-  void fly();
-  void hit();
-  void step();
+  HWY_FLATTEN void fly();
+  HWY_FLATTEN void hit();
+  HWY_FLATTEN void step();
   bool tell(std::size_t lane, Advance did, const KernelState<double>& before,
             const KernelState<double>& state);
   void tellStep(std::size_t lane, bool halved, bool rests);
@@ -69,6 +69,11 @@ class BatchRun {
   void keepBefore();
   void waitAtGround(std::size_t lane) {
     data_.wait(taken_[lane], static_cast<std::size_t>(next_[lane]));
+  }
+  /// Bodies that are too high to touch soon wait apart from those that may.
+  void waitForFlight(std::size_t lane) {
+    const bool high = place(lane).sim.state.position.z > data_.body.radius;
+    data_.wait(taken_[lane], high ? kHighFlight : kFlight);
   }
   void chooseNext();
   [[nodiscard]] BatchStepper::Data::Place& place(std::size_t lane) {
@@ -159,8 +164,9 @@ void BatchRun::coverLists() {
   const GroundWatch* watches[kLanes];
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     auto& watch = place(lane).watch;
-    if (lane < count_) {
-      watch.cover(of[3][lane], {of[0][lane], of[1][lane], of[2][lane]}, of[4][lane]);
+    if (lane < count_ &&
+        watch.cover(of[3][lane], {of[0][lane], of[1][lane], of[2][lane]}, of[4][lane])) {
+      watch.tellList();
     }
     watches[lane] = &watch;
   }
@@ -233,7 +239,7 @@ void BatchRun::fly() {
     if (touched) {
       waitAtGround(lane);
     } else {
-      data_.wait(taken_[lane], kFlight);
+      waitForFlight(lane);
     }
   }
 }
@@ -303,7 +309,7 @@ void BatchRun::tellLift(std::size_t lane) {
   if (sim.stuck > ifa::ContactRules::kLiftsToRest) {
     tell(lane, Advance::kRest, sim.state, sim.state);
   } else {
-    data_.wait(taken_[lane], kFlight);
+    waitForFlight(lane);
   }
 }
 

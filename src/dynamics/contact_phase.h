@@ -381,10 +381,17 @@ void ContactPhase<R, Ground>::settle(const Mask& taken, const Rotation<R>& rotat
 template <class R, class Ground>
 LaneMask<R> ContactPhase<R, Ground>::supported(const Mask& quiet, const Rotation<R>& rotation,
                                                const Ground& ground) {
-  for (auto& spots : spots_) spots.clear();
-  const R near(body_.slop);
+  const R near(body_.slop), zero(0.0), one(1.0);
+  R count(0.0);
   for (int i = 0; i < ground.count(); ++i) {
-    const Mask low = quiet & (ground.nextGap(i) <= near);
+    count = count + select(ground.nextGap(i) <= near, one, zero);
+  }
+  // Nothing stands on two.
+  const Mask many = quiet & (count > R(2.0));
+  if (!anyLane(many)) return many;
+  for (auto& spots : spots_) spots.clear();
+  for (int i = 0; i < ground.count(); ++i) {
+    const Mask low = many & (ground.nextGap(i) <= near);
     if (!anyLane(low)) continue;
     const Vec<R> p = ground.place(i);
     const R x = dot(rotation.rows[0], p), y = dot(rotation.rows[1], p);

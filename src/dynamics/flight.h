@@ -56,6 +56,7 @@ class FlightSegment {
   struct Ends {
     Heights a, b;
     R bend;
+    R limit0, limit1;  ///< of heights over the centre that are low
     LaneMask<R> near;  ///< lanes in which the body is low enough to touch
   };
   /// The first touch so far: share of the segment, 2 for none, and the vertex.
@@ -105,7 +106,7 @@ template <class R>
 LaneMask<R> FlightSegment<R>::isLow(const Ends& ends, const Candidates& found,
                                     std::size_t i) const {
   const R h0 = loadLanes<R>(found.h0 + i * kLanes), h1 = loadLanes<R>(found.h1 + i * kLanes);
-  return ends.near & !((h0 > ends.bend - ends.a.z) & (h1 > ends.bend - ends.b.z));
+  return ends.near & !((h0 > ends.limit0) & (h1 > ends.limit1));
 }
 
 template <class R>
@@ -201,7 +202,9 @@ R FlightSegment<R>::firstTouch() const {
   const KernelState<R> end = at(length_);
   const LaneMask<R> near = !(laneMin(start.position.z, end.position.z) > R(body_.radius));
   if (!anyLane(near)) return none;
-  const Ends ends{Heights(start), Heights(end), path_.bend(length_), near};
+  const Heights a(start), b(end);
+  const R bend = path_.bend(length_);
+  const Ends ends{a, b, bend, bend - a.z, bend - b.z, near};
   First first{two, {}};
   Candidates found;
   for (std::size_t begin = 0; begin < body_.x.size(); begin += kChunk) {

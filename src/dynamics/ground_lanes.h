@@ -132,11 +132,20 @@ void GroundLanes<R>::measure(const KernelState<R>& state, const Rotation<R>& rot
                              Frame& frame) {
   const R height = state.position.z, rise = state.velocity.z, zero(0.0), far(1e9);
   const Vec<R> up = rotation.rows[2], turn = cross(up, state.w);
-  for (int i = 0; i < count_; ++i) {
-    const Vec<R> p = place(i);
-    const R gap = height + (p.x * up.x + p.y * up.y + p.z * up.z);
-    frame.gap.set(i, shared_ ? gap : select(list(3, i) < zero, far, gap));
-    frame.rate.set(i, rise + (p.x * turn.x + p.y * turn.y + p.z * turn.z));
+  double *gap = frame.gap.row(0), *rate = frame.rate.row(0);
+  const double *x = body_.rows.x.data(), *y = body_.rows.y.data(), *z = body_.rows.z.data();
+  const double* list = shared_ ? nullptr : lists_.row(0);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count_); ++i) {
+    const Vec<R> p = shared_ ? Vec<R>{R(x[i]), R(y[i]), R(z[i])}
+                             : Vec<R>{loadLanes<R>(list), loadLanes<R>(list + kLanes),
+                                      loadLanes<R>(list + 2 * kLanes)};
+    R over = height + (p.x * up.x + p.y * up.y + p.z * up.z);
+    if (!shared_) {
+      setWhere(loadLanes<R>(list + 3 * kLanes) < zero, over, far);
+      list += kFields * kLanes;
+    }
+    storeLanes(over, gap + i * kLanes);
+    storeLanes(rise + (p.x * turn.x + p.y * turn.y + p.z * turn.z), rate + i * kLanes);
   }
 }
 

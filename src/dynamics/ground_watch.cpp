@@ -71,7 +71,6 @@ void GroundWatch::list(double height, const Vec<double>& up, double kinetic) {
     nearY[i] = nearY[count_ - 1];
     nearZ[i] = nearZ[count_ - 1];
   }
-  tellList();
 }
 
 void GroundWatch::tellList() {

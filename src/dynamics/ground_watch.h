@@ -40,8 +40,9 @@ class GroundWatch {
 
   /// Numbers of a vertex in listed().
   static constexpr int kListed = 4;
-  /// The list as rows of x, y, z and number; -1 is the number of all beyond its end. Not there
-  /// where all() are listed.
+  /// The list as rows of x, y, z and number, -1 beyond its end, as tellList() puts it there: to be
+  /// called when cover() has remade the list. Not where all() are listed.
+  void tellList();
   [[nodiscard]] const double* listed() const { return listed_[0].numbers; }
   /// Every vertex is listed, always.
   [[nodiscard]] bool all() const { return all_; }
@@ -68,7 +69,6 @@ class GroundWatch {
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   void measure(const KernelState<double>& state, const Rotation<double>& rotation,
                GroundFrame& frame) const;
-  void tellList();
   void list(double height, const Vec<double>& up, double kinetic);
 
   /// Two vertices, as they are moved into lanes together.
