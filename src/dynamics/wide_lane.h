@@ -13,11 +13,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 using WideTag = hn::ScalableTag<double>;
 using WideIndexTag = hn::RebindToSigned<WideTag>;
 
-/// Registers of a lane type: what one waits for, another does meanwhile.
-#ifndef IFA_REGS
-#define IFA_REGS 1
-#endif
-inline constexpr std::size_t kRegisters = IFA_REGS;
+/// Registers of a lane type: what one waits for, another does meanwhile; with two of AVX-512 more
+/// is lost to lanes that wait for each other than is gained.
+inline constexpr std::size_t kRegisters = HWY_TARGET == HWY_AVX2 ? 2 : 1;
 inline constexpr std::size_t kInRegister = HWY_LANES(double);
 
 struct Wide {
