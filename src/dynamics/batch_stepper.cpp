@@ -11,7 +11,7 @@
 #define HWY_TARGET_INCLUDE "dynamics/batch_stepper.cpp"
 // The first of Highway's headers, this one comes before all others that use them.
 // clang-format off
-#include "hwy/foreach_target.h"
+#include <hwy/foreach_target.h>
 #include "dynamics/lanes_of_target.h"
 // clang-format on
 

@@ -58,12 +58,12 @@ class ChosenVertices {
   /// Lanes that have more than `k`.
   [[nodiscard]] LaneMask<R> lanesWith(int k) const { return R(k) < loadLanes<R>(counts_); }
   /// Lanes that have `vertex`.
-  [[nodiscard]] LaneMask<R> lanesThatHave(std::size_t vertex) const {
+  [[nodiscard]] LaneMask<R> lanesThatHave(std::int64_t vertex) const {
     unsigned bits = 0;
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       for (int k = 0; k < count(lane); ++k) {
         const std::int64_t number = numbers_[static_cast<std::size_t>(k) * kLanes + lane];
-        if (number == static_cast<std::int64_t>(vertex)) bits |= 1U << lane;
+        if (number == vertex) bits |= 1U << lane;
       }
     }
     return lanesOf<R>(bits);

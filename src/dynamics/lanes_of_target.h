@@ -5,6 +5,8 @@
 // Code for an instruction set must be compiled for it, and none of it may be taken for code of
 // another. So everything over lanes is included anew, in a namespace of the instruction set; what
 // is not over lanes (models, lists of vertices) was included before and stays what it is.
+#include <hwy/highway.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -18,7 +20,6 @@
 #include "dynamics/body_model.h"
 #include "dynamics/ground_watch.h"
 #include "dynamics/support.h"
-#include "hwy/highway.h"
 
 #undef IFA_DYNAMICS_LANE_H
 #undef IFA_DYNAMICS_LANE_TRIGONOMETRY_H
