@@ -121,7 +121,8 @@ LaneMask<R> ContactPhase<R, Ground>::hits(const Sim& sim, const Ground& ground) 
   const R fast(-Rules::kLandingSpeed), near(body_.hitGap);
   Mask any(false);
   for (int i = 0; i < ground.count(); ++i) {
-    any = any | ((ground.gap(i) <= near) & (ground.rate(i) < fast));
+    const R gap = ground.gap(i), rate = ground.rate(i);
+    any = any | ((gap <= near) & (rate < fast));
   }
   return any & (sim.impactsHere < R(Rules::kImpactsAtOnce));
 }
@@ -131,7 +132,8 @@ LaneMask<R> ContactPhase<R, Ground>::touches(const Ground& ground) const {
   const R slow(Rules::kTouchingSpeed), near(body_.slop);
   Mask any(false);
   for (int i = 0; i < ground.count(); ++i) {
-    any = any | ((ground.gap(i) <= near) & (ground.rate(i) <= slow));
+    const R gap = ground.gap(i), rate = ground.rate(i);
+    any = any | ((gap <= near) & (rate <= slow));
   }
   return any;
 }
@@ -271,12 +273,12 @@ R ContactPhase<R, Ground>::overshoot(const R& step, const Ground& ground) const 
   const R under(-0.5 * body_.hitGap), near(body_.hitGap);
   R first(1.0);
   for (int i = 0; i < ground.count(); ++i) {
-    const Mask sinks = (ground.nextGap(i) < under) & (ground.gap(i) > near);
+    const R gap = ground.gap(i), nextGap = ground.nextGap(i);
+    const Mask sinks = (nextGap < under) & (gap > near);
     if (!anyLane(sinks)) continue;
     const Mask falls = sinks & !chosen_.lanesThatHave(i);
     if (!anyLane(falls)) continue;
-    const HeightCubic<R> height(ground.gap(i), ground.rate(i), ground.nextGap(i),
-                                ground.nextRate(i), step);
+    const HeightCubic<R> height(gap, ground.rate(i), nextGap, ground.nextRate(i), step);
     setWhere(falls, first, laneMin(first, height.firstTouch(falls)));
   }
   return first * step;
