@@ -23,7 +23,6 @@ class LaneRows {
   [[nodiscard]] const double* row(int i) const { return rows_[static_cast<std::size_t>(i)].lanes; }
   [[nodiscard]] double* row(int i) { return rows_[static_cast<std::size_t>(i)].lanes; }
   [[nodiscard]] R operator[](int i) const { return loadLanes<R>(row(i)); }
-  void set(int i, const R& value) { storeLanes(value, row(i)); }
   /// Each lane's own row.
   [[nodiscard]] R at(const typename LaneTraits<R>::Index& i) const {
     return fromRows<R>(rows_[0].lanes, i);

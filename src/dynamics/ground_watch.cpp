@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dynamics/ground_watch.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 
 namespace ifa {
@@ -55,14 +58,22 @@ void GroundWatch::list(double height, const Vec<double>& up, double kinetic) {
   const double *x = body_.rows.x.data(), *y = body_.rows.y.data(), *z = body_.rows.z.data();
   double *nearX = rows_.x.data(), *nearY = rows_.y.data(), *nearZ = rows_.z.data();
   count_ = 0;
-  for (std::size_t i = 0; i < body_.x.size(); ++i) {
-    const double gap = height + (x[i] * up.x + y[i] * up.y + z[i] * up.z);
-    // Written in any case, and kept by counting: whether a vertex is near is hard to foretell.
-    nearX[count_] = x[i];
-    nearY[count_] = y[i];
-    nearZ[count_] = z[i];
-    index_[count_] = static_cast<int>(i);
-    count_ += gap <= margin_ ? 1 : 0;
+  constexpr std::size_t kBits = 64;
+  for (std::size_t begin = 0; begin < body_.x.size(); begin += kBits) {
+    const std::size_t size = std::min(kBits, body_.x.size() - begin);
+    std::uint64_t near = 0;
+    for (std::size_t k = 0; k < size; ++k) {
+      const std::size_t i = begin + k;
+      const double gap = height + (x[i] * up.x + y[i] * up.y + z[i] * up.z);
+      near |= static_cast<std::uint64_t>(gap <= margin_) << k;
+    }
+    for (; near != 0; near &= near - 1, ++count_) {
+      const std::size_t i = begin + static_cast<std::size_t>(std::countr_zero(near));
+      nearX[count_] = x[i];
+      nearY[count_] = y[i];
+      nearZ[count_] = z[i];
+      index_[count_] = static_cast<int>(i);
+    }
   }
   constexpr std::size_t kChunk = VertexRows::kChunk;
   filled_ = (count_ + kChunk - 1) / kChunk * kChunk;
