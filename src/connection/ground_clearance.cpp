@@ -2,6 +2,7 @@
 #include "connection/ground_clearance.h"
 
 #include "dynamics/flight.h"
+#include "dynamics/kernel_state.h"
 
 namespace ifa {
 

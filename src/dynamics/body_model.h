@@ -6,8 +6,13 @@
 
 #include "body/body.h"
 #include "dynamics/lane.h"
+#include "model/rigid_state.h"
 
 namespace ifa {
+
+/// Vertices that would hit within this time hit together, s: an impact of a hard body lasts as
+/// long.
+inline constexpr double kTogether = 1.5e-4;
 
 /// Constants of the stepping scheme (docs/dynamics.md gives the reasons).
 struct KernelSettings {

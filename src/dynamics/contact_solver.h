@@ -3,7 +3,8 @@
 // Gauss-Seidel with accumulated, warm-started impulses. A point that sticks is solved exactly at
 // each visit; one that slides or parts by projection, normal first. Rolling and spinning friction
 // are moments limited by the normal impulse, relaxed along.
-#pragma once
+#ifndef IFA_DYNAMICS_CONTACT_SOLVER_H
+#define IFA_DYNAMICS_CONTACT_SOLVER_H
 
 #include <algorithm>
 
@@ -47,7 +48,7 @@ struct WorldInertia {
 /// One touching vertex, in each lane its own.
 template <class R>
 struct ContactPoint {
-  LaneMask<R> here{true};                ///< lanes that have it; in others its impulse is 0
+  LaneMask<R> here{};                    ///< lanes that have it; in others its impulse is 0
   Vec<R> place{};                        ///< body frame, m
   R gap{}, rate{};                       ///< height, m, and its rate, m/s, where the step begins
   Vec<R> r{};                            ///< from the centre of mass, world frame, m
@@ -214,3 +215,5 @@ class ContactSolver {
 };
 
 }  // namespace ifa
+
+#endif

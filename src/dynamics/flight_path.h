@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The motion of a body that nothing touches: a parabola and a torque-free rotation.
-#pragma once
+#ifndef IFA_DYNAMICS_FLIGHT_PATH_H
+#define IFA_DYNAMICS_FLIGHT_PATH_H
 
 #include "dynamics/free_rotation.h"
-#include "dynamics/kernel_state.h"
+#include "dynamics/lane_state.h"
 
 namespace ifa {
 
@@ -110,3 +111,5 @@ class FlightPath {
 };
 
 }  // namespace ifa
+
+#endif

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Torque-free rotation, with the same bits everywhere.
-#pragma once
+#ifndef IFA_DYNAMICS_FREE_ROTATION_H
+#define IFA_DYNAMICS_FREE_ROTATION_H
 
 #include "dynamics/body_model.h"
 #include "dynamics/lane.h"
@@ -129,3 +130,5 @@ class FreeRotation {
 };
 
 }  // namespace ifa
+
+#endif

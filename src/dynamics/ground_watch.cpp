@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dynamics/ground_watch.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 
 namespace ifa {
@@ -22,7 +25,11 @@ constexpr double kSlower = 8, kSlow = 0.05;
 GroundWatch::GroundWatch(const BodyModel& body)
     : body_(body), rows_(body.rows), index_(body.rows.size()), all_(body.x.size() <= kFew) {
   std::iota(index_.begin(), index_.end(), 0);
-  if (!all_) return;
+  if (!all_) {
+    listed_.resize(body.rows.size() / 2);
+    for (Pair& pair : listed_) pair.numbers[3] = pair.numbers[7] = -1;
+    return;
+  }
   count_ = body.x.size();
   filled_ = body.rows.size();
 }
@@ -51,14 +58,22 @@ void GroundWatch::list(double height, const Vec<double>& up, double kinetic) {
   const double *x = body_.rows.x.data(), *y = body_.rows.y.data(), *z = body_.rows.z.data();
   double *nearX = rows_.x.data(), *nearY = rows_.y.data(), *nearZ = rows_.z.data();
   count_ = 0;
-  for (std::size_t i = 0; i < body_.x.size(); ++i) {
-    const double gap = height + (x[i] * up.x + y[i] * up.y + z[i] * up.z);
-    // Written in any case, and kept by counting: whether a vertex is near is hard to foretell.
-    nearX[count_] = x[i];
-    nearY[count_] = y[i];
-    nearZ[count_] = z[i];
-    index_[count_] = static_cast<int>(i);
-    count_ += gap <= margin_ ? 1 : 0;
+  constexpr std::size_t kBits = 64;
+  for (std::size_t begin = 0; begin < body_.x.size(); begin += kBits) {
+    const std::size_t size = std::min(kBits, body_.x.size() - begin);
+    std::uint64_t near = 0;
+    for (std::size_t k = 0; k < size; ++k) {
+      const std::size_t i = begin + k;
+      const double gap = height + (x[i] * up.x + y[i] * up.y + z[i] * up.z);
+      near |= static_cast<std::uint64_t>(gap <= margin_) << k;
+    }
+    for (; near != 0; near &= near - 1, ++count_) {
+      const std::size_t i = begin + static_cast<std::size_t>(std::countr_zero(near));
+      nearX[count_] = x[i];
+      nearY[count_] = y[i];
+      nearZ[count_] = z[i];
+      index_[count_] = static_cast<int>(i);
+    }
   }
   constexpr std::size_t kChunk = VertexRows::kChunk;
   filled_ = (count_ + kChunk - 1) / kChunk * kChunk;
@@ -69,8 +84,23 @@ void GroundWatch::list(double height, const Vec<double>& up, double kinetic) {
   }
 }
 
-void GroundWatch::measure(double height, double rise, const Vec<double>& up,
-                          const Vec<double>& turn, GroundFrame& frame) const {
+void GroundWatch::tellList() {
+  double* to = listed_[0].numbers;
+  for (std::size_t i = 0; i < count_; ++i, to += kListed) {
+    to[0] = rows_.x[i];
+    to[1] = rows_.y[i];
+    to[2] = rows_.z[i];
+    to[3] = index_[i];
+  }
+  for (std::size_t i = count_; i < told_; ++i, to += kListed) to[3] = -1;
+  told_ = count_;
+}
+
+void GroundWatch::measure(const KernelState<double>& state, const Rotation<double>& rotation,
+                          GroundFrame& frame) const {
+  const double height = state.position.z, rise = state.velocity.z;
+  const Vec<double>& up = rotation.rows[2];
+  const Vec<double> turn = cross(up, state.w);
   const std::size_t size = filled_;
   if (frame.gap.size() < size) {
     frame.gap.resize(size);

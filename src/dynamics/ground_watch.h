@@ -5,16 +5,14 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "dynamics/body_model.h"
 #include "dynamics/kernel_state.h"
 
 namespace ifa {
-
-/// Vertices that would hit within this time hit together, s: an impact of a hard body lasts as
-/// long.
-inline constexpr double kTogether = 1.5e-4;
 
 /// Gaps and their rates of the listed vertices in one state.
 struct GroundFrame {
@@ -30,31 +28,68 @@ class GroundWatch {
   /// the body is as in `height` (of its centre, m) and `up` (the world's z axis, body frame) and
   /// has kinetic energy `kinetic` (J). True when the list was remade.
   bool cover(double height, const Vec<double>& up, double kinetic);
-  /// Gaps and rates of the listed vertices. `turn` is cross(up, w).
-  void measure(double height, double rise, const Vec<double>& up, const Vec<double>& turn,
-               GroundFrame& frame) const;
-
-  [[nodiscard]] std::size_t count() const { return count_; }
-  /// Hull vertex number `i` of the list; they are in the hull's order.
-  [[nodiscard]] int vertex(std::size_t i) const { return index_[i]; }
-  [[nodiscard]] Vec<double> place(std::size_t i) const {
-    return {rows_.x[i], rows_.y[i], rows_.z[i]};
+  /// Gaps and rates of the listed vertices, now and at the end of a step.
+  void measure(const KernelState<double>& state, const Rotation<double>& rotation) {
+    measure(state, rotation, now_);
   }
+  void measureNext(const KernelState<double>& state, const Rotation<double>& rotation) {
+    measure(state, rotation, next_);
+  }
+  /// The end of the step is now.
+  void goOn() { std::swap(now_, next_); }
+
+  /// Numbers of a vertex in listed().
+  static constexpr int kListed = 4;
+  /// The list as rows of x, y, z and number, -1 beyond its end, as tellList() puts it there: to be
+  /// called when cover() has remade the list. Not where all() are listed.
+  void tellList();
+  [[nodiscard]] const double* listed() const { return listed_[0].numbers; }
+  /// Every vertex is listed, always.
+  [[nodiscard]] bool all() const { return all_; }
+  /// Length of the list. Its vertices are in the hull's order.
+  [[nodiscard]] int count() const { return static_cast<int>(count_); }
+  [[nodiscard]] double gap(int i) const { return now_.gap[at(i)]; }
+  [[nodiscard]] double rate(int i) const { return now_.rate[at(i)]; }
+  [[nodiscard]] double nextGap(int i) const { return next_.gap[at(i)]; }
+  [[nodiscard]] double nextRate(int i) const { return next_.rate[at(i)]; }
+  /// Body frame, m.
+  [[nodiscard]] Vec<double> place(int i) const {
+    return {rows_.x[at(i)], rows_.y[at(i)], rows_.z[at(i)]};
+  }
+  /// Hull vertex number `i` of the list.
+  [[nodiscard]] int vertex(int i) const { return index_[at(i)]; }
+
+  /// The same for a number that each lane has for itself.
+  [[nodiscard]] double gapAt(std::int64_t i) const { return gap(static_cast<int>(i)); }
+  [[nodiscard]] double rateAt(std::int64_t i) const { return rate(static_cast<int>(i)); }
+  [[nodiscard]] Vec<double> placeAt(std::int64_t i) const { return place(static_cast<int>(i)); }
+  [[nodiscard]] double vertexAt(std::int64_t i) const { return vertex(static_cast<int>(i)); }
 
  private:
+  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  void measure(const KernelState<double>& state, const Rotation<double>& rotation,
+               GroundFrame& frame) const;
   void list(double height, const Vec<double>& up, double kinetic);
+
+  /// Two vertices, as they are moved into lanes together.
+  struct alignas(2 * kListed * sizeof(double)) Pair {
+    double numbers[2 * kListed];
+  };
 
   const BodyModel& body_;
   VertexRows rows_;         ///< room for all vertices; the list is what comes first
   std::vector<int> index_;  ///< likewise
   std::size_t count_ = 0;   ///< length of the list ...
   std::size_t filled_ = 0;  ///< ... and filled up to a multiple of VertexRows::kChunk
+  std::vector<Pair> listed_;
+  std::size_t told_ = 0;  ///< vertices in it
   double listedHeight_ = 0;
   Vec<double> listedUp_{};
   double mostKinetic_ = -1;  ///< J, for which reach_ is enough
   double reach_ = 0;         ///< m, how far a step can bring a vertex down
   double margin_ = 0;        ///< what is not listed was higher than this, m
   bool all_;
+  GroundFrame now_, next_;
 };
 
 }  // namespace ifa

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Height of one vertex over a stretch of motion, and where it comes down to the ground.
-#pragma once
+#ifndef IFA_DYNAMICS_HEIGHT_CUBIC_H
+#define IFA_DYNAMICS_HEIGHT_CUBIC_H
 
 #include "dynamics/lane.h"
 
@@ -23,8 +24,9 @@ struct HeightCubic {
   [[nodiscard]] R slope(R s) const { return (R(3.0) * c3 * s + R(2.0) * c2) * s + c1; }
 
   /// First s in [0, 1] at which the height falls through zero, 2 if there is none. A vertex that
-  /// starts at or just under zero and rises must fall again first.
-  [[nodiscard]] R firstTouch() const {
+  /// starts at or just under zero and rises must fall again first. Others than `lanes` get
+  /// anything.
+  [[nodiscard]] R firstTouch(const LaneMask<R>& lanes = LaneMask<R>(true)) const {
     const R zero(0.0), none(2.0);
     const R discriminant = c2 * c2 - R(3.0) * c1 * c3;
     const Turns turns{discriminant > zero, laneSqrt(laneMax(discriminant, zero))};
@@ -32,7 +34,7 @@ struct HeightCubic {
     R low = zero;
     if (anyLane(rises)) setWhere(rises, low, highest(turns));
     const R lowHeight = at(low);
-    LaneMask<R> open = (low < none) & (lowHeight > zero);
+    LaneMask<R> open = lanes & (low < none) & (lowHeight > zero);
     if (!anyLane(open)) return low;
     R touch = low, high(1.0);
     const R endHeight = at(high);
@@ -94,3 +96,5 @@ struct HeightCubic {
 };
 
 }  // namespace ifa
+
+#endif

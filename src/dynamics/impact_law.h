@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Newton restitution at every vertex that hits, without ever gaining energy.
-#pragma once
+#ifndef IFA_DYNAMICS_IMPACT_LAW_H
+#define IFA_DYNAMICS_IMPACT_LAW_H
 
 #include "dynamics/contact_solver.h"
-#include "dynamics/energy.h"
+#include "dynamics/lane_energy.h"
 
 namespace ifa {
 
@@ -103,3 +104,5 @@ class ImpactLaw {
 };
 
 }  // namespace ifa
+
+#endif

@@ -2,28 +2,10 @@
 // State of the kernel, and its way from and to RigidState.
 #pragma once
 
-#include "dynamics/lane.h"
+#include "dynamics/lane_state.h"
 #include "model/rigid_state.h"
 
 namespace ifa {
-
-/// Where a lane is.
-enum class Phase {
-  kFlight,
-  kContact,
-  kHalfway,  ///< in the middle of a long step in contact, whose end is known
-  kRest
-};
-
-/// Pose and velocities; the angular velocity in the body (principal) frame.
-template <class R>
-struct KernelState {
-  R time{};
-  Vec<R> position{};
-  Quat<R> q{};
-  Vec<R> velocity{};
-  Vec<R> w{};
-};
 
 inline KernelState<double> kernelState(const RigidState& state, double time) {
   KernelState<double> k;

@@ -5,19 +5,23 @@
 // its neighbours: every lane may go through both branches, and keeps what its own condition says. A
 // loop goes on until no lane is live, and leaves those alone that are not. A branch that no lane
 // needs may be left out (anyLane): that saves time and changes no bit.
-#pragma once
+#ifndef IFA_DYNAMICS_LANE_H
+#define IFA_DYNAMICS_LANE_H
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 
 namespace ifa {
 
 /// Mask type and number of lanes of a lane type. Mask(true) has all lanes set; a lane type made of
-/// nothing, R(), is 0.
+/// nothing, R(), is 0. Index holds a whole number for each lane.
 template <class R>
 struct LaneTraits;
 template <>
 struct LaneTraits<double> {
   using Mask = bool;
+  using Index = std::int64_t;
   static constexpr int kLanes = 1;
 };
 template <class R>
@@ -34,6 +38,54 @@ inline double laneAbs(double a) { return std::fabs(a); }
 template <class M, class T>
 void setWhere(const M& mask, T& target, const T& value) {
   target = select(mask, value, target);
+}
+template <class T>
+void setWhere(bool mask, T& target, const T& value) {
+  if (mask) target = value;
+}
+
+/// Lane i as bit i, and back.
+inline unsigned laneBits(bool mask) { return mask ? 1 : 0; }
+template <class R>
+LaneMask<R> lanesOf(unsigned bits);
+template <>
+inline bool lanesOf<double>(unsigned bits) {
+  return bits != 0;
+}
+
+/// Lanes in memory, one after the other, from an address that is a multiple of their size on.
+template <class R>
+R loadLanes(const double* from);
+template <>
+inline double loadLanes<double>(const double* from) {
+  return *from;
+}
+inline void storeLanes(double value, double* to) { *to = value; }
+inline double laneOf(double value, std::size_t) { return value; }
+/// The same for whole numbers.
+template <class R>
+typename LaneTraits<R>::Index loadIndices(const std::int64_t* from);
+template <>
+inline std::int64_t loadIndices<double>(const std::int64_t* from) {
+  return *from;
+}
+inline std::int64_t orZero(bool mask, std::int64_t index) { return mask ? index : 0; }
+/// A whole number told as a double.
+inline std::int64_t indexOf(double number) { return static_cast<std::int64_t>(number); }
+
+/// Each lane's own entry of a table.
+template <class R>
+R fromTable(const double* table, const typename LaneTraits<R>::Index& index);
+template <>
+inline double fromTable<double>(const double* table, const std::int64_t& index) {
+  return table[index];
+}
+/// Each lane's own row of what storeLanes() put one after the other.
+template <class R>
+R fromRows(const double* rows, const typename LaneTraits<R>::Index& row);
+template <>
+inline double fromRows<double>(const double* rows, const std::int64_t& row) {
+  return rows[row];
 }
 
 /// A vector of three lanes.
@@ -128,3 +180,5 @@ struct Rotation {
 };
 
 }  // namespace ifa
+
+#endif

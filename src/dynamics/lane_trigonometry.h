@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sine and cosine over lanes with the same bits everywhere: range reduction by pi/2, then Taylor
 // series.
-#pragma once
+#ifndef IFA_DYNAMICS_LANE_TRIGONOMETRY_H
+#define IFA_DYNAMICS_LANE_TRIGONOMETRY_H
 
 #include "dynamics/lane.h"
 
@@ -44,3 +45,5 @@ SinCos<R> laneSinCos(R x) {
 }
 
 }  // namespace ifa
+
+#endif

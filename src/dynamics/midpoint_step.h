@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // One step in contact by the implicit midpoint rule, and what keeps it from gaining energy.
-#pragma once
+#ifndef IFA_DYNAMICS_MIDPOINT_STEP_H
+#define IFA_DYNAMICS_MIDPOINT_STEP_H
 
 #include "dynamics/contact_solver.h"
-#include "dynamics/energy.h"
 #include "dynamics/free_rotation.h"
+#include "dynamics/lane_energy.h"
 
 namespace ifa {
 
@@ -109,3 +110,5 @@ R halveStep(const BodyModel& body, const KernelState<R>& before, R energy0,
 }
 
 }  // namespace ifa
+
+#endif

@@ -11,46 +11,29 @@ namespace {
 /// The centre of mass must be inside by this share of the squared radius (twice an area).
 constexpr double kMargin = 1e-3;
 
-struct Spot {
-  double x, y;
-};
-
-Spot spotOf(const GroundWatch& watch, std::size_t i, const Rotation<double>& rotation) {
-  const Vec<double> p = watch.place(i);
-  return {dot(rotation.rows[0], p), dot(rotation.rows[1], p)};
-}
-
 }  // namespace
 
-void thinBySpread(const GroundWatch& watch, const GroundFrame& frame,
-                  const Rotation<double>& rotation, std::size_t most,
-                  std::vector<std::size_t>& chosen) {
-  std::vector<Spot> spots(chosen.size());
-  std::vector<double> far(chosen.size(), std::numeric_limits<double>::max());
+void thinBySpread(std::size_t most, std::vector<LowSpot>& spots) {
+  std::vector<double> far(spots.size(), std::numeric_limits<double>::max());
   std::size_t next = 0;
-  for (std::size_t c = 0; c < chosen.size(); ++c) {
-    spots[c] = spotOf(watch, chosen[c], rotation);
-    if (frame.gap[chosen[c]] < frame.gap[chosen[next]]) next = c;
+  for (std::size_t c = 0; c < spots.size(); ++c) {
+    if (spots[c].gap < spots[next].gap) next = c;
   }
-  std::vector<std::size_t> kept;
+  std::vector<LowSpot> kept;
   while (kept.size() < most) {
-    kept.push_back(chosen[next]);
-    for (std::size_t c = 0; c < chosen.size(); ++c) {
-      const double dx = spots[c].x - spots[next].x, dy = spots[c].y - spots[next].y;
+    kept.push_back(spots[next]);
+    for (std::size_t c = 0; c < spots.size(); ++c) {
+      const double dx = spots[c].spot.x - spots[next].spot.x;
+      const double dy = spots[c].spot.y - spots[next].spot.y;
       far[c] = std::min(far[c], dx * dx + dy * dy);
     }
     next = static_cast<std::size_t>(std::max_element(far.begin(), far.end()) - far.begin());
   }
-  chosen = kept;
+  spots = kept;
 }
 
 /// Seen from the centre of mass, vertices lie on both sides of the line to every vertex.
-bool isSupported(const GroundWatch& watch, const GroundFrame& frame,
-                 const Rotation<double>& rotation, const BodyModel& body) {
-  std::vector<Spot> spots;
-  for (std::size_t i = 0; i < watch.count(); ++i) {
-    if (frame.gap[i] <= body.slop) spots.push_back(spotOf(watch, i, rotation));
-  }
+bool isSupported(const std::vector<Spot>& spots, const BodyModel& body) {
   if (spots.size() < 3) return false;
   const double margin = kMargin * body.radius * body.radius;
   return std::all_of(spots.begin(), spots.end(), [&](const Spot& a) {

@@ -13,8 +13,8 @@
 #include "database/database.h"
 #include "database/journal.h"
 #include "pipeline/learned.h"
+#include "sampler/chain_batch.h"
 #include "sampler/drop_statistics.h"
-#include "sampler/event_chain.h"
 #include "sampler/initial_state.h"
 #include "sampler/simulator_comparison.h"
 
@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kTimeLimit = 20;      // s per simulation
-constexpr std::uint64_t kBlock = 128;  // simulations between two looks at the stop flag
+constexpr std::uint64_t kBlock = 512;  // simulations between two looks at the stop flag
 constexpr std::size_t kAhead = 16;     // blocks in memory
 
 /// The header of the file that is asked for, without what only the simulations give.
@@ -49,25 +49,32 @@ class BlockSimulator {
   [[nodiscard]] EventBlock simulate(std::uint64_t first, std::uint64_t count) const {
     EventBlock block;
     block.firstSimulation = first;
-    EventChain chain(model_, cut_);
+    std::vector<RigidState> starts;
     for (std::uint64_t i = 0; i < count; ++i) {
-      const std::size_t before = block.records.size();
-      const RigidState start = sampleInitialState(*request_.body, request_.seed, first + i);
-      if (request_.backend == Backend::kOde) {
-        simulateOde(start, block.records);
-      } else {
-        chain.simulate(start, kTimeLimit, block.records);
-      }
-      block.counts.push_back(static_cast<std::uint32_t>(block.records.size() - before));
+      starts.push_back(sampleInitialState(*request_.body, request_.seed, first + i));
+    }
+    const bool ode = request_.backend == Backend::kOde;
+    for (const auto& records : ode ? simulateOde(starts) : simulateNative(starts)) {
+      block.records.insert(block.records.end(), records.begin(), records.end());
+      block.counts.push_back(static_cast<std::uint32_t>(records.size()));
     }
     return block;
   }
 
  private:
-  void simulateOde(const RigidState& start, std::vector<EventRecord>& out) const {
-    const DropResult drop =
-        simulateDropOde(*request_.body, request_.surface, start, kTimeLimit, fineOde());
-    appendRecords(drop.steps, eventsOf(drop, cut_), out);
+  using Records = std::vector<std::vector<EventRecord>>;
+
+  [[nodiscard]] Records simulateNative(const std::vector<RigidState>& starts) const {
+    return ChainBatch(model_, cut_).simulate(starts, kTimeLimit);
+  }
+  [[nodiscard]] Records simulateOde(const std::vector<RigidState>& starts) const {
+    Records records(starts.size());
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+      const DropResult drop =
+          simulateDropOde(*request_.body, request_.surface, starts[i], kTimeLimit, fineOde());
+      appendRecords(drop.steps, eventsOf(drop, cut_), records[i]);
+    }
+    return records;
   }
 
   const DatabaseRequest& request_;

@@ -22,46 +22,51 @@ void joinNext(EventRecord& record, double gap, const Eigen::Vector2d& way, bool 
 
 }  // namespace
 
-/// Takes one step; false at rest.
-bool EventChain::listen(EventRecorder& recorder) {
-  const Advance did = stepper_.advance(Stepper::kNoLimit);
-  if (did == Advance::kImpact || did == Advance::kContact) {
-    touches_.push_back({stepper_.before().time, stepper_.state().time});
-    recorder.add(stepper_.contactStep());
+KernelState<double> LinkListener::begin(const PackedState& before, double timeLimit) {
+  recorder_ = EventRecorder(settings_);
+  before_ = before;
+  timeLimit_ = timeLimit;
+  time_ = 0;
+  rests_ = false;
+  touches_.clear();
+  return kernelState(unpack(before), 0);
+}
+
+void LinkListener::hear(const Piece& piece) {
+  if (piece.did == Advance::kImpact || piece.did == Advance::kContact) {
+    touches_.push_back({piece.before.time, piece.state.time});
+    recorder_.add(piece.contactStep());
   } else {
-    recorder.elapse(stepper_.state().time);
+    recorder_.elapse(piece.state.time);
   }
-  return did != Advance::kRest;
+  time_ = piece.state.time;
+  rests_ = piece.did == Advance::kRest;
+}
+
+/// An event that does not begin at once is the next one already.
+bool LinkListener::nextHeard() const {
+  const auto& events = recorder_.events();
+  return events.size() > 1 || (!events.empty() && events[0].start > 0);
 }
 
 /// An impact takes no time: one at `from` itself is the end of what was before.
-bool EventChain::touchedBetween(double from, double to) const {
+bool LinkListener::touchedBetween(double from, double to) const {
   return std::any_of(touches_.begin(), touches_.end(), [=](const Touch& touch) {
     return touch.end > from + kInstant && touch.begin < to - kInstant;
   });
 }
 
-ChainLink EventChain::follow(const PackedState& before, double timeLimit) {
-  EventRecorder recorder(recorder_);
-  touches_.clear();
-  stepper_.start(kernelState(unpack(before), 0));
+ChainLink LinkListener::link() {
   ChainLink link;
-  const auto& events = recorder.events();
-  // An event that does not begin at once is the next one already.
-  const auto nextHeard = [&] {
-    return events.size() > 1 || (!events.empty() && events[0].start > 0);
-  };
-  while (stepper_.state().time < timeLimit && !link.rests && !nextHeard()) {
-    link.rests = !listen(recorder);
-  }
-  const bool late = !link.rests && !nextHeard();
-  const std::vector<ContactEvent> found = recorder.finish(link.rests);
+  link.rests = rests_;
+  const bool late = !rests_ && !nextHeard();
+  const std::vector<ContactEvent> found = recorder_.finish(rests_);
   // What the time limit cut off is not known to its end.
   link.heard = !late && !found.empty() && found[0].start <= 0;
   if (link.heard) {
     link.event = found[0];
     // To the bit what it starts from; the spin was turned into the body's frame and back.
-    link.event.before = unpack(before);
+    link.event.before = unpack(before_);
   }
   link.followed = !late && found.size() > (link.heard ? 1U : 0U);
   if (!link.followed) return link;
@@ -71,6 +76,15 @@ ChainLink EventChain::follow(const PackedState& before, double timeLimit) {
   link.next = next.before;
   link.silentPassage = touchedBetween(link.event.end, next.start);
   return link;
+}
+
+ChainLink EventChain::follow(const PackedState& before, double timeLimit) {
+  stepper_.start(listener_.begin(before, timeLimit));
+  while (listener_.goesOn()) {
+    const Advance did = stepper_.advance(Stepper::kNoLimit);
+    listener_.hear(stepper_.piece(did));
+  }
+  return listener_.link();
 }
 
 EventRecord recordOf(const ContactEvent& event) {
@@ -102,32 +116,42 @@ void appendRecords(const std::vector<ContactStep>& steps, const std::vector<Cont
   }
 }
 
+void ChainWriter::begin(const RigidState& start, double timeLimit, std::vector<EventRecord>& out) {
+  *this = {};
+  out_ = &out;
+  state_ = pack(start);
+  timeLimit_ = timeLimit;
+}
+
+bool ChainWriter::goesOn() const { return !over_ && time_ < timeLimit_ && misses_ < kMostMisses; }
+
+void ChainWriter::add(const ChainLink& link) {
+  ++misses_;
+  if (link.heard) {
+    if (waiting_) joinNext(out_->back(), gap_, way_, silent_);
+    out_->push_back(recordOf(link.event));
+    out_->back().before = state_;
+    waiting_ = true;
+    silent_ = false;
+    gap_ = -link.event.end;
+    way_.setZero();
+    misses_ = 0;
+  }
+  over_ = !link.followed;
+  if (over_) return;
+  gap_ += link.nextStart;
+  way_ += link.next.position.head<2>();
+  // What was not heard touched nevertheless.
+  silent_ = silent_ || link.silentPassage || !link.heard;
+  time_ += link.nextStart;
+  state_ = pack(link.next);
+}
+
 void EventChain::simulate(const RigidState& start, double timeLimit,
                           std::vector<EventRecord>& out) {
-  PackedState state = pack(start);
-  bool waiting = false, silent = false;  // whether out.back() waits for its next event
-  double time = 0, gap = 0;
-  Eigen::Vector2d way = Eigen::Vector2d::Zero();
-  for (int misses = 0; time < timeLimit && misses < kMostMisses; ++misses) {
-    const ChainLink link = follow(state, timeLimit - time);
-    if (link.heard) {
-      if (waiting) joinNext(out.back(), gap, way, silent);
-      out.push_back(recordOf(link.event));
-      out.back().before = state;
-      waiting = true;
-      silent = false;
-      gap = -link.event.end;
-      way.setZero();
-      misses = -1;
-    }
-    if (!link.followed) return;
-    gap += link.nextStart;
-    way += link.next.position.head<2>();
-    // What was not heard touched nevertheless.
-    silent = silent || link.silentPassage || !link.heard;
-    time += link.nextStart;
-    state = pack(link.next);
-  }
+  ChainWriter writer;
+  writer.begin(start, timeLimit, out);
+  while (writer.goesOn()) writer.add(follow(writer.state(), writer.timeLeft()));
 }
 
 }  // namespace ifa
