@@ -7,9 +7,11 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <string>
 #include <system_error>
+#include <thread>
 
 namespace ifa {
 
@@ -94,15 +96,14 @@ Result<void> RawFile::sync() {
   return {};
 }
 
-Result<FileLock> FileLock::take(const fs::path& path) {
+Result<std::optional<FileLock>> FileLock::tryToTake(const fs::path& path) {
   const fs::path name = path.string() + ".lock";
   while (true) {
     auto file = RawFile::open(name, RawFile::Mode::kUpdate);
     if (!file) return tl::unexpected(file.error());
     if (::flock(file->descriptor(), LOCK_EX | LOCK_NB) != 0) {
       if (errno != EWOULDBLOCK) return cannotWrite(name);
-      return badInput("is being made by another process", path.string(),
-                      "wait until that is done, or name another file");
+      return std::nullopt;
     }
     // Whoever held it may have removed it in between: then this is a lock that nobody else sees.
     struct stat ours = {}, there = {};
@@ -111,6 +112,25 @@ Result<FileLock> FileLock::take(const fs::path& path) {
                       ours.st_dev == there.st_dev;
     if (seen) return FileLock(std::move(*file));
   }
+}
+
+Result<FileLock> FileLock::take(const fs::path& path) {
+  auto lock = tryToTake(path);
+  if (!lock) return tl::unexpected(lock.error());
+  if (*lock) return std::move(**lock);
+  return badInput("is being made by another process", path.string(),
+                  "wait until that is done, or name another file");
+}
+
+Result<FileLock> FileLock::await(const fs::path& path, const std::function<bool()>& stop) {
+  constexpr std::chrono::milliseconds kBetweenTries(50);
+  while (!stop()) {
+    auto lock = tryToTake(path);
+    if (!lock) return tl::unexpected(lock.error());
+    if (*lock) return std::move(**lock);
+    std::this_thread::sleep_for(kBetweenTries);
+  }
+  return tl::unexpected<Error>({ErrorCode::kInterrupted, "interrupted", path.string(), {}});
 }
 
 FileLock::~FileLock() {

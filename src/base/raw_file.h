@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -54,6 +56,10 @@ class FileLock {
  public:
   /// Errors: kBadInput when it is taken, or when the folder cannot be written.
   [[nodiscard]] static Result<FileLock> take(const std::filesystem::path& path);
+  /// The same, but waits while another process has it, until `stop` says not to: then the error is
+  /// kInterrupted.
+  [[nodiscard]] static Result<FileLock> await(const std::filesystem::path& path,
+                                              const std::function<bool()>& stop);
 
   FileLock(FileLock&& other) noexcept = default;
   FileLock& operator=(FileLock&&) = delete;
@@ -61,6 +67,8 @@ class FileLock {
 
  private:
   explicit FileLock(RawFile file) : file_(std::move(file)) {}
+  /// Nothing where another process has it.
+  [[nodiscard]] static Result<std::optional<FileLock>> tryToTake(const std::filesystem::path& path);
 
   RawFile file_;
 };

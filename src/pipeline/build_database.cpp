@@ -213,7 +213,8 @@ Result<DatabaseBuild> buildDatabase(const DatabaseRequest& request, const fs::pa
                                     const Progress& progress) {
   if (auto good = checkRequest(request, output); !good) return tl::unexpected(good.error());
   const DatabaseHeader header = headerOf(request);
-  const auto lock = FileLock::take(output);
+  const auto stop = [&progress] { return progress.stopRequested(); };
+  const auto lock = request.wait ? FileLock::await(output, stop) : FileLock::take(output);
   if (!lock) return tl::unexpected(lock.error());
   std::error_code code;
   if (request.resume && !fs::exists(journalPath(output), code)) {

@@ -20,6 +20,7 @@ struct DatabaseRequest {
   Backend backend = Backend::kNative;
   std::uint64_t shard = 1, shards = 1;  ///< this build makes number `shard` (from 1) of `shards`
   bool resume = false;  ///< go on with what an interrupted build left, if it left anything
+  bool wait = false;    ///< until another process that makes the same file is done
 };
 
 struct DatabaseBuild {

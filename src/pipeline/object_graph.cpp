@@ -18,7 +18,7 @@ DatabaseRequest requestOf(const Body& body, const SurfaceProperties& surface,
   request.surface = surface;
   request.surfaceName = surfaceName;
   request.simulations = simulations;
-  request.resume = true;
+  request.resume = request.wait = true;
   return request;
 }
 

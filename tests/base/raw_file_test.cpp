@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <optional>
 
 #include "support/temporary_folder.h"
 
@@ -58,6 +59,22 @@ TEST(FileLock, IsHeldByOneAtATime) {
   }
   EXPECT_THAT(folder.names(), testing::IsEmpty());
   EXPECT_TRUE(FileLock::take(folder / "f"));
+}
+
+TEST(FileLock, IsWaitedForUntilItIsFreeOrToldToStop) {
+  const test::TemporaryFolder folder;
+  auto held = std::make_optional(FileLock::take(folder / "f"));
+  int asked = 0;
+  const auto stopped = FileLock::await(folder / "f", [&asked] { return ++asked > 2; });
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().code, ErrorCode::kInterrupted);
+  asked = 0;
+  const auto freed = FileLock::await(folder / "f", [&] {
+    if (++asked == 3) held.reset();
+    return false;
+  });
+  EXPECT_TRUE(freed);
+  EXPECT_EQ(asked, 3);
 }
 
 TEST(FileLock, IsNotHeldByALeftover) {
