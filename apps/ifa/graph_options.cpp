@@ -27,9 +27,7 @@ void addGraphOptions(CLI::App& command, GraphOptions& options) {
       .add_option_function<std::string>(
           "--connection",
           [&options](const std::string& kind) { options.timeWarp = kind == "blend"; },
-          "exact: flights that take the sound's time; blend: as in the paper, then shown at "
-          "another "
-          "pace")
+          "exact: flights that take the sound's time; blend: the paper's, shown at another pace")
       ->check(CLI::IsMember({"exact", "blend"}))
       ->default_str("exact")
       ->group(group);

@@ -22,9 +22,9 @@ DatabaseRequest requestOf(const Body& body, const SurfaceProperties& surface,
   return request;
 }
 
-/// The cache's database, made where it is not.
-Result<fs::path> cachedDatabase(const DatabaseRequest& request, const Progress& progress) {
-  const fs::path path = cachedDatabasePath(identityOf(request));
+/// Makes the cache's database at `path` where it is not.
+Result<void> ensureCached(const DatabaseRequest& request, const fs::path& path,
+                          const Progress& progress) {
   if (path.empty()) {
     return badInput("there is no cache folder for its database", request.body->definition.name,
                     "name a database, or set XDG_CACHE_HOME");
@@ -34,7 +34,7 @@ Result<fs::path> cachedDatabase(const DatabaseRequest& request, const Progress& 
   if (auto built = buildDatabase(request, path, progress); !built) {
     return tl::unexpected(built.error());
   }
-  return path;
+  return {};
 }
 
 /// What is planned from a database is simulated again, so body, surface and simulation must be the
@@ -67,13 +67,14 @@ Result<std::shared_ptr<const ContactGraph>> GraphShelf::get(const Body& body,
                                                             const Progress& progress) {
   const std::lock_guard lock(mutex_);
   const DatabaseRequest request = requestOf(body, surface, surfaceName, options_.simulations);
-  fs::path path = options_.database;
-  if (path.empty()) {
-    auto cached = cachedDatabase(request, progress);
-    if (!cached) return tl::unexpected(cached.error());
-    path = *cached;
-  }
+  const bool named = !options_.database.empty();
+  const fs::path path = named ? options_.database : cachedDatabasePath(identityOf(request));
   if (graph_ && path == path_) return graph_;
+  if (!named) {
+    if (auto there = ensureCached(request, path, progress); !there) {
+      return tl::unexpected(there.error());
+    }
+  }
   graph_.reset();
   auto database = openFor(request, path);
   if (!database) return tl::unexpected(database.error());
