@@ -37,36 +37,31 @@ struct Change {
   Vector3d linear, angular;
 };
 
+/// First and last sample of an event.
 struct EventEnds {
   const MotionSample* first = nullptr;
   const MotionSample* last = nullptr;
 };
 
-/// The change may press the body down again in the same instant: the event's last sample is the one
-/// right after the change, where that is seen.
-EventEnds endsBefore(const Evidence& all, std::size_t index, const Change& change) {
+/// Whether a step of no duration out of contact `index` is the listed change, and not an impact.
+bool isChange(const Evidence& all, const Step& step, std::size_t index, const Change& change) {
   const double leaving = all.retiming(index + 1);
-  EventEnds ends;
-  bool changed = false;
-  for (const Step& step : all.steps) {
-    if (step.kind != StepKind::kEvent || step.contact != index || changed) continue;
-    const MotionSample &a = all.sample(step.from), &b = all.sample(step.from + 1);
-    if (ends.first == nullptr) ends.first = &a;
-    ends.last = &b;
-    const Vector3d linear = leaving * b.velocity - a.velocity - change.linear;
-    const Vector3d angular = leaving * b.angularVelocity - a.angularVelocity - change.angular;
-    changed = step.duration <= 0 && linear.norm() < kSameVelocity && angular.norm() < kSameSpin;
-  }
-  return ends;
+  const MotionSample &a = all.sample(step.from), &b = all.sample(step.from + 1);
+  const Vector3d linear = leaving * b.velocity - a.velocity - change.linear;
+  const Vector3d angular = leaving * b.angularVelocity - a.angularVelocity - change.angular;
+  return step.duration <= 0 && linear.norm() < kSameVelocity && angular.norm() < kSameSpin;
 }
 
-/// First and last sample of contact `index`'s event; null where there is none.
-EventEnds endsOf(const Evidence& all, std::size_t index) {
+/// Ends of contact `index`'s event; null where there is none. With a `change` that leads out of it,
+/// the last sample is the one right after that, where it is seen: it may press the body down again
+/// in the same instant.
+EventEnds endsOf(const Evidence& all, std::size_t index, const Change* change = nullptr) {
   EventEnds ends;
   for (const Step& step : all.steps) {
     if (step.kind != StepKind::kEvent || step.contact != index) continue;
     if (ends.first == nullptr) ends.first = &all.sample(step.from);
     ends.last = &all.sample(step.from + 1);
+    if (change != nullptr && isChange(all, step, index, *change)) break;
   }
   return ends;
 }
@@ -93,7 +88,7 @@ Bends bendsOf(const Evidence& all, std::size_t index) {
   if (index + 1 < all.motion.contacts.size()) {
     const MotionContact& next = all.contact(index + 1);
     left = changeBy(all, next.impulseChange, next.angularChange, whole.last->orientation);
-    ends = endsBefore(all, index, left);
+    ends = endsOf(all, index, &left);
   }
   // The contact as it was simulated: neither change has a part in it.
   const double before = all.retiming(index), after = all.retiming(index + 1);
