@@ -111,12 +111,13 @@ std::vector<PathStart> ContactGraph::bestStarts(double time, const HeardEvent& f
   return best.take();
 }
 
-std::vector<PathEnd> ContactGraph::bestTerminals(const HeardEvent& heard, std::size_t count) const {
+std::vector<PathEnd> ContactGraph::bestAlone(const HeardEvent& heard, bool terminal,
+                                             std::size_t count) const {
   const Parts& p = *parts_;
   const auto flags = p.database.flags();
   BestList<PathEnd> best(count);
   for (std::uint32_t i = 0; i < p.database.events(); ++i) {
-    if ((flags[i] & EventRecord::kTerminal) == 0) continue;
+    if (((flags[i] & EventRecord::kTerminal) != 0) != terminal) continue;
     const HeardEvent event = heardEvent(p.database, i, 1);
     best.add({i, logDuration(heard, event, p.settings.affinity) +
                      logCentroid(heard, event, p.settings.affinity)});

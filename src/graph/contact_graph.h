@@ -82,9 +82,9 @@ class ContactGraph {
   [[nodiscard]] std::vector<PathStart> bestStarts(double time, const HeardEvent& first,
                                                   const TransitionTarget& second,
                                                   std::size_t count) const;
-  /// Terminal events for a signature of one event, best first, equal ones by event.
-  [[nodiscard]] std::vector<PathEnd> bestTerminals(const HeardEvent& heard,
-                                                   std::size_t count) const;
+  /// Events, terminal or not, for a signature of one event, best first, equal ones by event.
+  [[nodiscard]] std::vector<PathEnd> bestAlone(const HeardEvent& heard, bool terminal,
+                                               std::size_t count) const;
 
   /// Event of the database, its pre-contact state over the origin at time 0.
   [[nodiscard]] ContactEvent event(std::uint32_t event) const;

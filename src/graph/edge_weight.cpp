@@ -55,12 +55,16 @@ EdgeWeigher::EdgeWeigher(const EventDatabase& database, const Body& body,
               settings.affinity),
       energy_(energyOf(body, source.before)) {}
 
-EdgeRefusal EdgeWeigher::refusedUnseen(std::size_t sibling) const {
-  const auto flags = database_->flags();
+bool isLeftByFlight(std::span<const std::uint8_t> flags, std::size_t event) {
   constexpr std::uint32_t kAsked =
       EventRecord::kFollowed | EventRecord::kSilentPassage | EventRecord::kTouchingAfter;
-  if ((flags[sibling] & kAsked) != EventRecord::kFollowed) return EdgeRefusal::kNotFlight;
-  if (sibling + 1 >= flags.size()) return EdgeRefusal::kNotFlight;  // a damaged file
+  const bool hasNext = event + 1 < flags.size();  // else a damaged file
+  return hasNext && (flags[event] & kAsked) == EventRecord::kFollowed;
+}
+
+EdgeRefusal EdgeWeigher::refusedUnseen(std::size_t sibling) const {
+  const auto flags = database_->flags();
+  if (!isLeftByFlight(flags, sibling)) return EdgeRefusal::kNotFlight;
   const bool terminal = (flags[sibling + 1] & EventRecord::kTerminal) != 0;
   if (terminal != target_->terminal) return EdgeRefusal::kEnd;
   const double own = database_->values(kGap)[sibling];

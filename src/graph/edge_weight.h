@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "affinity/factors.h"
 #include "body/body.h"
@@ -61,6 +62,10 @@ struct EdgeWeight {
     return {amplitude + duration + centroid, velocity + orientation + timeWarp, velocity};
   }
 };
+
+/// Whether what follows `event` is another one, and flight all the way there.
+/// @param flags  of all events of the database
+[[nodiscard]] bool isLeftByFlight(std::span<const std::uint8_t> flags, std::size_t event);
 
 /// An event as equations 6 to 8 see it: duration filtered by the merge gap that the database was
 /// made with. @param firstAmplitude  N s

@@ -57,10 +57,7 @@ TreeEvent treeEvent(const EventDatabase& database, std::size_t j) {
 
 /// Which tree the flight from `j` belongs to: 0 onward, 1 ending, -1 none.
 int treeOf(std::span<const std::uint8_t> flags, std::span<const float> gaps, std::size_t j) {
-  constexpr std::uint32_t kAsked =
-      EventRecord::kFollowed | EventRecord::kSilentPassage | EventRecord::kTouchingAfter;
-  const bool flies = (flags[j] & kAsked) == EventRecord::kFollowed && j + 1 < flags.size();
-  if (!flies || !(gaps[j] > 0)) return -1;
+  if (!isLeftByFlight(flags, j) || !(gaps[j] > 0)) return -1;
   return (flags[j + 1] & EventRecord::kTerminal) != 0 ? 1 : 0;
 }
 

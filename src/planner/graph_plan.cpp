@@ -17,7 +17,8 @@ class PlanMaker {
     add(0);
     plan_.contacts[0].source.kind = SourceKind::kSampled;
     for (int level = 0; level < path_.last(); ++level) follow(level);
-    sumUp();
+    sumUp(plan_, log_);
+    plan_.bendCap = largestBend();
     return std::move(plan_);
   }
 
@@ -36,7 +37,7 @@ class PlanMaker {
     const EventName name = graph_.database().nameOf(id);
     contact.source = {SourceKind::kDatabase, static_cast<std::int64_t>(name.simulation),
                       static_cast<std::int64_t>(name.event), 0};
-    const HeardEvent wanted{target.amplitude, target.duration, target.centroid};
+    const HeardEvent wanted = heardOf(target);
     const double a = logAmplitude(wanted, heard), l = logDuration(wanted, heard),
                  c = logCentroid(wanted, heard);
     contact.factors.a = std::exp(a);
@@ -74,19 +75,6 @@ class PlanMaker {
     to.factors.t = std::exp(edge.logTimeWarp);
     log_.velocity += v;
     log_.motion += v + edge.logOrientation + edge.logTimeWarp;
-  }
-
-  void sumUp() {
-    const int n = path_.last() + 1;
-    plan_.score = log_.score(n);
-    plan_.scoreWithoutSound = log_.scoreWithoutSound(n);
-    plan_.meanFv = log_.meanVelocity(n);
-    std::vector<double> bends;
-    for (const PlannedContact& contact : plan_.contacts) bends.push_back(contact.bend);
-    std::sort(bends.begin(), bends.end());
-    plan_.bendMax = bends.back();
-    plan_.bendCap = largestBend();
-    plan_.bendMedian = 0.5 * (bends[(bends.size() - 1) / 2] + bends[bends.size() / 2]);
   }
 
   /// Cuts of this planner are of its own kind (-10 of log f_v; as printed that bounds no bend).

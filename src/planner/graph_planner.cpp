@@ -44,24 +44,6 @@ class Found {
   std::vector<Plan> plans_;
 };
 
-/// Events that do not end in rest, best first by their sound.
-std::vector<PathEnd> bestPassing(const ContactGraph& graph, const HeardEvent& target,
-                                 std::size_t count) {
-  std::vector<PathEnd> found;
-  const auto flags = graph.database().flags();
-  for (std::uint32_t id = 0; id < flags.size(); ++id) {
-    if ((flags[id] & EventRecord::kTerminal) != 0) continue;
-    const HeardEvent heard = graph.heard(id, 1);
-    found.push_back({id, logDuration(target, heard) + logCentroid(target, heard)});
-  }
-  const auto middle = found.begin() + static_cast<std::ptrdiff_t>(std::min(count, found.size()));
-  std::partial_sort(found.begin(), middle, found.end(), [](const PathEnd& a, const PathEnd& b) {
-    return a.total != b.total ? a.total > b.total : a.event < b.event;
-  });
-  found.erase(middle, found.end());
-  return found;
-}
-
 /// One call of plan().
 class GraphRun {
  public:
@@ -103,10 +85,8 @@ class GraphRun {
     const SignatureEvent& only = request_.signature.events[0];
     constexpr std::size_t kTries = 16;  // of which some may be the same take
     const std::size_t count = kTries * static_cast<std::size_t>(request_.settings.takes);
-    const HeardEvent heard{only.amplitude, only.duration, only.centroid};
-    for (const PathEnd& end : request_.signature.terminal
-                                  ? request_.graph->bestTerminals(heard, count)
-                                  : bestPassing(*request_.graph, heard, count)) {
+    for (const PathEnd& end :
+         request_.graph->bestAlone(heardOf(only), request_.signature.terminal, count)) {
       GraphPath path;
       path.first = end.event;
       path.firstAmplitude = request_.graph->event(end.event).amplitude;

@@ -16,10 +16,6 @@ constexpr std::size_t kMostLists = 200000;
 /// Times the children wanted that are looked at where few can go on.
 constexpr std::size_t kMostAhead = 512;
 
-HeardEvent heardOf(const SignatureEvent& event) {
-  return {event.amplitude, event.duration, event.centroid};
-}
-
 }  // namespace
 
 double GraphPath::total() const {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "affinity/factors.h"
 #include "base/progress.h"
 #include "body/body.h"
 #include "connection/registration.h"
@@ -79,6 +80,14 @@ struct Plan {
   double score = 0, scoreWithoutSound = 0, meanFv = 0, bendMedian = 0, bendMax = 0;
   std::vector<PlannedContact> contacts;
 };
+
+/// Sets Scores and bends of a plan whose contacts, one for each target, are there.
+void sumUp(Plan& plan, const LogScore& log);
+
+/// A target as equations 6 to 8 see it.
+[[nodiscard]] inline HeardEvent heardOf(const SignatureEvent& target) {
+  return {target.amplitude, target.duration, target.centroid};
+}
 
 /// Thread safe: `plan` may be called from several threads.
 class Planner {

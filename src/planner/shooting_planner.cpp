@@ -42,7 +42,6 @@ ContactFactors factorsOf(const ShootingNode& node, const HeardEvent& target) {
 
 Plan planOf(const ShootingProblem& problem, const std::vector<ShootingNode>& path) {
   Plan plan;
-  std::vector<double> bends;
   for (std::size_t i = 0; i < path.size(); ++i) {
     const ShootingNode& node = path[i];
     PlannedContact contact = contactOf(node);
@@ -53,16 +52,8 @@ Plan planOf(const ShootingProblem& problem, const std::vector<ShootingNode>& pat
       plan.contacts.back().angularVelocityChange = node.angularChange;
     }
     plan.contacts.push_back(contact);
-    bends.push_back(node.bend);
   }
-  const int n = path.back().level + 1;
-  const LogScore& log = path.back().log;
-  plan.score = log.score(n);
-  plan.scoreWithoutSound = log.scoreWithoutSound(n);
-  plan.meanFv = log.meanVelocity(n);
-  std::sort(bends.begin(), bends.end());
-  plan.bendMax = bends.back();
-  plan.bendMedian = 0.5 * (bends[(bends.size() - 1) / 2] + bends[bends.size() / 2]);
+  sumUp(plan, path.back().log);
   return plan;
 }
 

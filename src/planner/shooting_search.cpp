@@ -27,7 +27,7 @@ ShootingProblem::ShootingProblem(const PlanRequest& planned, const ShootingPlann
   recorder = audibleCut(*planned.body, planned.surface);
   std::vector<double> starts, amplitudes;
   for (const SignatureEvent& event : planned.signature.events) {
-    targets.push_back({event.amplitude, event.duration, event.centroid});
+    targets.push_back(heardOf(event));
     starts.push_back(event.time);
     amplitudes.push_back(event.amplitude);
   }

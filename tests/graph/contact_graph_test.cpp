@@ -188,7 +188,7 @@ TEST_F(ContactGraphTest, TerminalsAreTheBestOfAll) {
     all.emplace_back(-logDuration(heard, event) - logCentroid(heard, event), i);
   }
   std::sort(all.begin(), all.end());
-  const auto found = graph.bestTerminals(heard, 10);
+  const auto found = graph.bestAlone(heard, true, 10);
   ASSERT_EQ(found.size(), 10U);
   for (std::size_t i = 0; i < found.size(); ++i) {
     EXPECT_EQ(found[i].event, all[i].second);
@@ -203,7 +203,7 @@ TEST_F(ContactGraphTest, NothingComesOfNothing) {
   EXPECT_TRUE(graph.best(q.source, q.target, 5).empty());
   EXPECT_TRUE(graph.bestByScan(q.source, q.target, 5).empty());
   EXPECT_TRUE(graph.bestStarts(0.1, {}, {}, 5).empty());
-  EXPECT_TRUE(graph.bestTerminals({}, 5).empty());
+  EXPECT_TRUE(graph.bestAlone({}, true, 5).empty());
 }
 
 TEST_F(ContactGraphTest, NoneAskedForNoneGiven) {
@@ -211,7 +211,7 @@ TEST_F(ContactGraphTest, NoneAskedForNoneGiven) {
   Question q = asked()[0];
   EXPECT_TRUE(graph.best(q.source, q.target, 0).empty());
   EXPECT_TRUE(graph.bestByScan(q.source, q.target, 0).empty());
-  EXPECT_TRUE(graph.bestTerminals({}, 0).empty());
+  EXPECT_TRUE(graph.bestAlone({}, true, 0).empty());
   q.target.time = 0;
   EXPECT_TRUE(graph.best(q.source, q.target, 5).empty());
   EXPECT_TRUE(graph.bestByScan(q.source, q.target, 5).empty());
