@@ -128,7 +128,7 @@ bool BatchRun::take() {
     taken_[lane] = waiting.back();
     waiting.pop_back();
   }
-  // Lanes that are left over do what the last one does, and nobody looks.
+  // Lanes that are left over do what the first one does, and nobody looks.
   for (std::size_t lane = count_; lane < kLanes && count_ > 0; ++lane) taken_[lane] = taken_[0];
   return count_ > 0;
 }
