@@ -3,8 +3,6 @@
 
 #include <system_error>
 
-#include "pipeline/build_database.h"
-
 namespace ifa {
 
 namespace fs = std::filesystem;
@@ -61,28 +59,43 @@ GraphSettings GraphShelf::graphSettings() const {
   return settings;
 }
 
+fs::path GraphShelf::pathOf(const DatabaseRequest& request) const {
+  return options_.database.empty() ? cachedDatabasePath(identityOf(request)) : options_.database;
+}
+
+Result<EventDatabase> GraphShelf::openAt(const DatabaseRequest& request, const fs::path& path,
+                                         const Progress& progress) const {
+  if (options_.database.empty()) {
+    if (auto there = ensureCached(request, path, progress); !there) {
+      return tl::unexpected(there.error());
+    }
+  }
+  return openFor(request, path);
+}
+
 Result<std::shared_ptr<const ContactGraph>> GraphShelf::get(const Body& body,
                                                             const SurfaceProperties& surface,
                                                             const std::string& surfaceName,
                                                             const Progress& progress) {
   const std::lock_guard lock(mutex_);
   const DatabaseRequest request = requestOf(body, surface, surfaceName, options_.simulations);
-  const bool named = !options_.database.empty();
-  const fs::path path = named ? options_.database : cachedDatabasePath(identityOf(request));
+  const fs::path path = pathOf(request);
   if (graph_ && path == path_) return graph_;
-  if (!named) {
-    if (auto there = ensureCached(request, path, progress); !there) {
-      return tl::unexpected(there.error());
-    }
-  }
   graph_.reset();
-  auto database = openFor(request, path);
+  auto database = openAt(request, path, progress);
   if (!database) return tl::unexpected(database.error());
   auto graph = ContactGraph::make(std::move(*database), body, graphSettings(), progress);
   if (!graph) return tl::unexpected(graph.error());
   path_ = path;
   graph_ = std::make_shared<const ContactGraph>(std::move(*graph));
   return graph_;
+}
+
+Result<EventDatabase> GraphShelf::database(const Body& body, const SurfaceProperties& surface,
+                                           const std::string& surfaceName,
+                                           const Progress& progress) const {
+  const DatabaseRequest request = requestOf(body, surface, surfaceName, kHybridSimulations);
+  return openAt(request, pathOf(request), progress);
 }
 
 }  // namespace ifa

@@ -11,8 +11,13 @@
 #include "body/body.h"
 #include "graph/contact_graph.h"
 #include "ifa/synchronize.h"
+#include "pipeline/build_database.h"
 
 namespace ifa {
+
+/// Drops in the database that planner "hybrid" makes of an object on its first use. Fixed, so that
+/// a plan does not depend on what happens to be cached.
+inline constexpr std::uint64_t kHybridSimulations = 20000;
 
 /// Keeps the last graph that was asked for, so that one search after another need not index the
 /// same database. The options and the energy gain are those of all. Thread safe.
@@ -29,7 +34,17 @@ class GraphShelf {
                                                                 const std::string& surfaceName,
                                                                 const Progress& progress);
 
+  /// The database alone, for planner "hybrid": the one that is named, or the cache's of
+  /// kHybridSimulations drops.
+  [[nodiscard]] Result<EventDatabase> database(const Body& body, const SurfaceProperties& surface,
+                                               const std::string& surfaceName,
+                                               const Progress& progress) const;
+
  private:
+  [[nodiscard]] std::filesystem::path pathOf(const DatabaseRequest& request) const;
+  [[nodiscard]] Result<EventDatabase> openAt(const DatabaseRequest& request,
+                                             const std::filesystem::path& path,
+                                             const Progress& progress) const;
   [[nodiscard]] GraphSettings graphSettings() const;
 
   GraphOptions options_;

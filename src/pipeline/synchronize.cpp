@@ -71,7 +71,8 @@ struct Job {
   Heard heard;
   std::unique_ptr<Planner> planner;
   EnergyOutlook outlook;
-  std::shared_ptr<const ContactGraph> graph;
+  std::shared_ptr<const ContactGraph> graph;  // for "graph"
+  std::optional<EventDatabase> database;      // for "graph" and "hybrid"
 };
 
 Result<Job> prepare(const SynchronizeSettings& settings) {
@@ -84,7 +85,8 @@ Result<Job> prepare(const SynchronizeSettings& settings) {
   if (!surface) return tl::unexpected(surface.error());
   auto heard = hear(settings, body->definition.mergeGap);
   if (!heard) return tl::unexpected(heard.error());
-  return Job{std::move(*body), std::move(*surface), std::move(*heard), std::move(*planner), {}, {}};
+  return Job{
+      std::move(*body), std::move(*surface), std::move(*heard), std::move(*planner), {}, {}, {}};
 }
 
 // Takes time on an object's first use, so it comes after all that can be refused at once.
@@ -94,11 +96,33 @@ Result<void> learn(Job& job, const SynchronizeSettings& settings, GraphShelf& sh
   const Learned learned = learnObject(job.body, surface, cacheFolder(), progress);
   surface.referenceImpulse = learned.referenceImpulse;
   job.outlook = learned.outlook;
+  if (settings.planner == "hybrid") {
+    auto database = shelf.database(job.body, surface, job.surface, progress);
+    if (!database) return tl::unexpected(database.error());
+    job.database = std::move(*database);
+  }
   if (settings.planner != "graph") return {};
   auto graph = shelf.get(job.body, surface, job.surface, progress);
   if (!graph) return tl::unexpected(graph.error());
   job.graph = std::move(*graph);
+  job.database = job.graph->database();
   return {};
+}
+
+// The first check that a motion does not pass, told for people; empty when it passes all.
+std::string auditFailure(const Motion& motion, const Body& body) {
+  const auto report = audit(motion, body);
+  const auto failed = std::find_if(report.checks.begin(), report.checks.end(),
+                                   [](const AuditCheck& check) { return !check.passed; });
+  if (failed == report.checks.end()) return {};
+  return fmt::format("the motion found does not hold its audit: {} is {:.3g} {} at {:.3f} s",
+                     failed->name, failed->worst, failed->unit, failed->time);
+}
+
+// Where two plans are as good, the one whose motion holds its audit is taken.
+bool holdsAudit(const PlanRequest& request, const Plan& plan) {
+  const auto motion = buildMotion(request, plan, 0);
+  return motion && auditFailure(*motion, *request.body).empty();
 }
 
 PlanRequest makeRequest(const SynchronizeSettings& settings, const Job& job) {
@@ -113,20 +137,16 @@ PlanRequest makeRequest(const SynchronizeSettings& settings, const Job& job) {
   request.settings.earlyExit = settings.graph.earlyExit;
   request.outlook = job.outlook;
   request.graph = job.graph.get();
+  request.database = job.database ? &*job.database : nullptr;
+  request.accepts = holdsAudit;
   return request;
 }
 
 // A plan that fails its audit is a bug of ours; it must not pass for a result.
 void auditTake(Motion& motion, const Body& body) {
   if (!motion.success) return;
-  const auto report = audit(motion, body);
-  const auto failed = std::find_if(report.checks.begin(), report.checks.end(),
-                                   [](const AuditCheck& check) { return !check.passed; });
-  if (failed == report.checks.end()) return;
-  motion.success = false;
-  motion.failure =
-      fmt::format("the motion found does not hold its audit: {} is {:.3g} {} at {:.3f} s",
-                  failed->name, failed->worst, failed->unit, failed->time);
+  motion.failure = auditFailure(motion, body);
+  motion.success = motion.failure.empty();
 }
 
 struct Search {
@@ -170,7 +190,7 @@ Result<Motion> makeTake(const SynchronizeSettings& settings, const Job& job, con
   motion->object.surface = job.surface;
   motion->object.mesh = copiedMeshName(job.body.definition);
   motion->searchSeconds = found.seconds;
-  if (job.graph) motion->database = referenceTo(job.graph->database());
+  if (job.database) motion->database = referenceTo(*job.database);
   placeInSound(*motion, job.heard);
   auditTake(*motion, job.body);
   return motion;

@@ -60,6 +60,29 @@ void EventSimulation::outcomes(const RigidState& arrival, double restitution, bo
   for (ContactEvent& event : out) event.before = arrival;
 }
 
+std::vector<double> EventSimulation::rhythm(const RigidState& state, std::size_t count,
+                                            double horizon) {
+  EventRecorder recorder(recorder_);
+  stepper_.start(kernelState(state, 0));
+  while (recorder.events().size() <= count && stepper_.state().time < horizon + kBinSlack) {
+    const Advance did = stepper_.advance(Stepper::kNoLimit);
+    if (did == Advance::kImpact || did == Advance::kContact) {
+      recorder.add(stepper_.contactStep());
+    } else {
+      recorder.elapse(stepper_.state().time);
+    }
+    if (did == Advance::kRest) break;
+  }
+  std::vector<double> gaps;
+  double last = 0;
+  for (const ContactEvent& event : recorder.finish(false)) {
+    if (gaps.size() == count || event.start > horizon) break;
+    gaps.push_back(event.start - last);
+    last = event.start;
+  }
+  return gaps;
+}
+
 std::optional<NextContact> EventSimulation::nextAudible(const RigidState& state, double horizon) {
   EventRecorder recorder(recorder_);
   stepper_.start(kernelState(state, 0));

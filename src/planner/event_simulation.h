@@ -32,6 +32,12 @@ class EventSimulation {
   void outcomes(const RigidState& arrival, double restitution, bool terminal, bool cuts,
                 std::vector<ContactEvent>& out, double mergeGap = 0);
 
+  /// Gaps from `state` to the next audible event, and from each to the one after it, start to
+  /// start, as the body goes on when it is left to itself: at most `count`, and none that ends
+  /// after `horizon` seconds. Fewer when it comes to rest.
+  [[nodiscard]] std::vector<double> rhythm(const RigidState& state, std::size_t count,
+                                           double horizon);
+
   /// Simulates from `state` for at most `horizon` seconds until an audible event begins.
   [[nodiscard]] std::optional<NextContact> nextAudible(const RigidState& state, double horizon);
 

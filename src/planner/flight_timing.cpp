@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "planner/flight_timing.h"
 
+#include <Eigen/LU>
 #include <cmath>
 
+#include "base/portable_math.h"
 #include "dynamics/energy.h"
 #include "dynamics/flight.h"
 
@@ -14,6 +16,7 @@ using Eigen::Vector3d;
 
 /// Orientation and spin after a torque-free turn.
 struct TurnedUp {
+  Spin<double> spin;
   Rotation<double> rotation;
   Vec<double> w;
 
@@ -27,7 +30,7 @@ TurnedUp turn(const BodyModel& model, const Quat<double>& q, const Vec<double>& 
   const int pieces =
       closedForm(model) ? 1 : static_cast<int>(duration * rate / model.settings.segmentAngle) + 1;
   for (int i = 0; i < pieces; ++i) spin = FreeRotation<double>(model, spin).at(duration / pieces);
-  return {Rotation<double>(spin.q), spin.w};
+  return {spin, Rotation<double>(spin.q), spin.w};
 }
 
 /// Transpose of the left Jacobian of the rotation by `v`, applied to `a`: how a change of the
@@ -106,6 +109,27 @@ class Timing {
     return flight;
   }
 
+  /// Flight with the spin at `wish`, as far as it turns the body.
+  [[nodiscard]] AimingFlight aiming(const Coordinates& wish) const {
+    Vector3d linear, angular;
+    region_.change(wish, linear, angular);
+    const Vector3d spin = after_.angularVelocity + angular;
+    const Spin<double> end =
+        turn(model_, start_.q, rotation_.transposed(vec(spin)), duration_).spin;
+    AimingFlight flight;
+    KernelState<double> state = start_;
+    state.q = end.q;
+    state.w = end.w;
+    flight.arrival = rigidState(state);
+    for (int axis = 0; axis < 2; ++axis) {
+      const Vec<double> lever =
+          aimed(vec(spin) * duration_, {axis == 0 ? duration_ : 0, axis == 1 ? duration_ : 0, 0});
+      flight.tilting.row(axis) =
+          region_.angularAxes().transpose() * Vector3d(lever.x, lever.y, lever.z);
+    }
+    return flight;
+  }
+
   /// Moves the flight's coordinates so that, to first order, `excess` of energy goes.
   [[nodiscard]] Coordinates cooled(const TimedFlight& flight, double excess) const {
     const RigidState& state = flight.departure;
@@ -163,6 +187,43 @@ std::optional<TimedFlight> timeFlight(const BodyModel& model, const RigidState& 
     wish = timing.cooled(*flight, 1.1 * (flight->energy - mostEnergy));
   }
   return flight;
+}
+
+AimingFlight aimingFlight(const BodyModel& model, const RigidState& after,
+                          const PlausibleRegion& region, double duration) {
+  return Timing(model, after, region, duration).aiming(Coordinates::Zero());
+}
+
+Vector3d tiltTo(const Eigen::Quaterniond& orientation, const Vector3d& up) {
+  const Vector3d now = orientation.conjugate() * Vector3d::UnitZ();
+  const Vector3d axis = now.cross(up);
+  const double sine = axis.norm(), cosine = now.dot(up);
+  if (sine < 1e-12) return Vector3d::Zero();
+  const double angle = cosine >= 0 ? portableAngle(sine, cosine)
+                                   : 3.14159265358979324 - portableAngle(sine, -cosine);
+  // What the body sees turn one way turns it the other way in the world.
+  return orientation * (axis * (-angle / sine));
+}
+
+std::optional<TimedFlight> aimFlight(const BodyModel& model, const RigidState& after,
+                                     const PlausibleRegion& region, double duration,
+                                     const Vector3d& up) {
+  constexpr int kSteps = 8;
+  constexpr double kNear = 1e-3, kNearEnough = 0.01;  // rad
+  const Timing timing(model, after, region, duration);
+  Coordinates wish = Coordinates::Zero();
+  double missed = 0;
+  for (int step = 0;; ++step) {
+    const AimingFlight flight = timing.aiming(wish);
+    const Vector3d tilt = tiltTo(flight.arrival.orientation, up);
+    missed = tilt.norm();
+    if (missed < kNear || step == kSteps) break;
+    const Eigen::Matrix2d normal = flight.tilting * flight.tilting.transpose();
+    wish.tail<3>() += flight.tilting.transpose() * normal.inverse() * tilt.head<2>();
+    if (!(wish.squaredNorm() < 100)) return std::nullopt;
+  }
+  if (missed > kNearEnough) return std::nullopt;
+  return timing.close(wish);
 }
 
 std::optional<Touch> firstTouch(const BodyModel& model, const RigidState& departure, double limit) {

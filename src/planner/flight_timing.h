@@ -30,6 +30,29 @@ struct TimedFlight {
                                                     const PlausibleRegion& region, Coordinates wish,
                                                     double duration, double mostEnergy);
 
+/// How a flight whose spin is not changed arrives `duration` seconds later, and what tilts it.
+struct AimingFlight {
+  RigidState arrival;  ///< orientation and spin; position and velocity are the departure's
+  /// Tilt of the arrival about the world's x and y axes by the three angular coordinates of the
+  /// plausible region, to first order, rad.
+  Eigen::Matrix<double, 2, 3> tilting;
+};
+[[nodiscard]] AimingFlight aimingFlight(const BodyModel& model, const RigidState& after,
+                                        const PlausibleRegion& region, double duration);
+
+/// Tilt about horizontal axes that turns a body which sees the vertical (unit, its own axes) where
+/// `orientation` has it until it sees it at `up`: rotation vector, world frame, rad. Up to half a
+/// turn.
+[[nodiscard]] Eigen::Vector3d tiltTo(const Eigen::Quaterniond& orientation,
+                                     const Eigen::Vector3d& up);
+
+/// The change nearest to none of the spin after which the body sees the vertical at `up` (unit,
+/// principal frame) `duration` seconds later, closed in time by the vertical velocity. None where
+/// the steps do not come within a hundredth of a radian.
+[[nodiscard]] std::optional<TimedFlight> aimFlight(const BodyModel& model, const RigidState& after,
+                                                   const PlausibleRegion& region, double duration,
+                                                   const Eigen::Vector3d& up);
+
 /// State at the first touch of a flight from `departure` within `limit` seconds, and when.
 struct Touch {
   double time = 0;

@@ -22,7 +22,6 @@ class Found {
   explicit Found(std::size_t wanted) : wanted_(wanted) {}
 
   void add(Plan plan) {
-    plan.solved = true;
     const auto worse = std::find_if(plans_.begin(), plans_.end(),
                                     [&](const Plan& other) { return plan.score > other.score; });
     const auto same = [](const Plan& a) {
@@ -76,7 +75,10 @@ class GraphRun {
     return cut_ || progress_.stopRequested();
   }
   void keep(const GraphPath& path) {
-    found_.add(planOf(request_, path, connector_));
+    Plan plan = planOf(request_, path, connector_);
+    plan.solved = true;
+    if (!request_.accepted(plan)) return;
+    found_.add(std::move(plan));
     if (secondsToGood_ < 0 && found_.reached(kGoodScore)) secondsToGood_ = elapsed();
   }
 

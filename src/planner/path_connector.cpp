@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "dynamics/energy.h"
+#include "planner/contact_beginning.h"
 #include "sampler/drop_statistics.h"
 
 namespace ifa {
@@ -11,7 +12,6 @@ namespace ifa {
 namespace {
 
 constexpr double kLongestEvent = 20;  // s
-constexpr double kBin = 1e-3;         // s, in which impulses are heard (docs/method.md, 2)
 
 PlanarTransform shiftTo(const RigidState& state) {
   return {1, 0, state.position.x(), state.position.y()};
@@ -44,40 +44,13 @@ PlausibleRegion PathConnector::regionOf(std::uint32_t id) {
           graph_.settings().affinity};
 }
 
-PathConnector::Beginning PathConnector::beginningOf(std::uint32_t id) {
-  Stepper stepper(model_);
-  stepper.start(kernelState(event(id).before, 0));
-  const double until = std::min(kBin, event(id).end);
-  Beginning beginning;
-  for (bool touched = false;;) {
-    const Advance did = stepper.advance(Stepper::kNoLimit);
-    const bool touches = did == Advance::kImpact || did == Advance::kContact;
-    const Vec<double>& v = stepper.state().velocity;
-    if (touches || did == Advance::kRest) {
-      beginning.afterBin = {v.x, v.y, v.z};
-      beginning.time = stepper.state().time;
-      if (!touched) {
-        beginning.first = beginning.afterBin;
-        beginning.energy = totalEnergy(model_, stepper.state());
-      }
-      touched = true;
-    }
-    if (did == Advance::kRest || (touched && stepper.state().time >= until)) return beginning;
-  }
-}
-
-/// With the first impulse the arriving body gives way to the simulated one. What the arriving one
-/// has not got, the contact must not give it, and it must still be heard.
 bool PathConnector::reachable(std::uint32_t id, const ConnectedEdge& edge) {
-  const Beginning beginning = beginningOf(id);
-  const double rounding = model_.mass * kGravity * connection_.depth;
-  if (beginning.energy - edge.arrivalEnergy > rounding) return false;
-  if (totalEnergy(model_, event(id).after) > edge.arrivalEnergy) return false;
-  const Eigen::Vector3d fallen(0, 0, kGravity * beginning.time);
-  const double impulse =
-      model_.mass * std::max((beginning.first - edge.arrival.velocity).norm(),
-                             (beginning.afterBin + fallen - edge.arrival.velocity).norm());
-  return impulse - 2 * recorder_.weight * kBin > recorder_.threshold;
+  const ContactEvent& what = event(id);
+  if (totalEnergy(model_, what.after) > edge.arrivalEnergy) return false;
+  const ContactBeginning beginning =
+      beginningOf(model_, what.before, model_.surface.restitution, what.end);
+  return canBegin(model_, recorder_, beginning, edge.arrivalEnergy, edge.arrival.velocity,
+                  connection_.depth);
 }
 
 void PathConnector::weigh(std::uint32_t from, std::uint32_t sibling, double time,

@@ -56,15 +56,6 @@ class PathConnector {
   void weigh(std::uint32_t from, std::uint32_t sibling, double time, ConnectedEdge& edge);
   [[nodiscard]] bool reachable(std::uint32_t id, const ConnectedEdge& edge);
 
-  /// How a simulated event begins.
-  struct Beginning {
-    double energy = 0;         ///< after the first impact or step in contact, J
-    Eigen::Vector3d first;     ///< velocity then, m/s
-    Eigen::Vector3d afterBin;  ///< velocity when a bin of 1 ms is over, or the event
-    double time = 0;           ///< from the start to then, s
-  };
-  [[nodiscard]] Beginning beginningOf(std::uint32_t id);
-
   const ContactGraph& graph_;
   BodyModel model_;
   RecorderSettings recorder_;

@@ -21,10 +21,13 @@ void sumUp(Plan& plan, const LogScore& log) {
 }
 
 Result<std::unique_ptr<Planner>> makePlanner(const std::string& name) {
+  if (name == "hybrid") {
+    return std::make_unique<ShootingPlanner>(ShootingPlannerSettings::hybrid());
+  }
   if (name == "shoot") return std::make_unique<ShootingPlanner>();
   if (name == "graph") return std::make_unique<GraphPlanner>();
   return tl::unexpected<Error>({ErrorCode::kUsage, "there is no planner \"" + name + "\"",
-                                "--planner", "use shoot or graph"});
+                                "--planner", "use hybrid, shoot or graph"});
 }
 
 }  // namespace ifa

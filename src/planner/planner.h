@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -36,14 +37,22 @@ struct PlannerSettings {
   double earlyExit = kGoodScore;  ///< "graph": a motion of this Score ends the search
 };
 
+struct Plan;
+
 /// What is to be planned.
 struct PlanRequest {
   const Body* body = nullptr;
   SurfaceProperties surface;
   ContactSignature signature;
   PlannerSettings settings;
-  std::optional<EnergyOutlook> outlook;  ///< of body and surface; learnt when not given
-  const ContactGraph* graph = nullptr;   ///< of body and surface; "graph" needs it
+  std::optional<EnergyOutlook> outlook;     ///< of body and surface; learnt when not given
+  const ContactGraph* graph = nullptr;      ///< of body and surface; "graph" needs it
+  const EventDatabase* database = nullptr;  ///< of body and surface; "hybrid" needs it
+  /// Whether a complete plan may be taken, judged by others (the audit); the next best is taken
+  /// where it may not. Asked of few. Empty: all may.
+  std::function<bool(const PlanRequest&, const Plan&)> accepts;
+
+  [[nodiscard]] bool accepted(const Plan& plan) const { return !accepts || accepts(*this, plan); }
 };
 
 /// One contact of a plan: the event as simulated, and the change of velocity that leads out of it.
@@ -100,7 +109,7 @@ class Planner {
                                                        const Progress& progress) const = 0;
 };
 
-/// @param name  "shoot" or "graph". Errors: kUsage for another.
+/// @param name  "hybrid", "shoot" or "graph". Errors: kUsage for another.
 [[nodiscard]] Result<std::unique_ptr<Planner>> makePlanner(const std::string& name);
 
 }  // namespace ifa

@@ -26,14 +26,20 @@ PlannedContact contactOf(const ShootingNode& node) {
   contact.relativeAmplitude = node.heard.amplitude;
   contact.bend = node.bend;
   contact.arrival = node.arrival;
-  contact.source.kind = node.level == 0 ? SourceKind::kSampled : SourceKind::kShot;
+  contact.arrivalChange = node.arrivalChange;
+  contact.arrivalAngularChange = node.arrivalAngular;
+  contact.arrivalBend = node.arrivalBend;
+  contact.source = node.source;
+  if (node.level == 0 && node.source.kind == SourceKind::kShot) {
+    contact.source.kind = SourceKind::kSampled;
+  }
   return contact;
 }
 
 /// The factors of a contact, from its own numbers.
 ContactFactors factorsOf(const ShootingNode& node, const HeardEvent& target) {
   ContactFactors factors;
-  factors.v = std::exp(logVelocity(node.bend));
+  factors.v = std::exp(logVelocity(node.bend) + logVelocity(node.arrivalBend));
   factors.a = std::exp(logAmplitude(target, node.heard));
   factors.l = std::exp(logDuration(target, node.heard));
   factors.c = std::exp(logCentroid(target, node.heard));
@@ -127,7 +133,6 @@ class Takes {
     for (const ShootingNode& node : search.complete()) {
       if (!acceptable(problem_, node)) break;
       found.push_back(planOf(problem_, search.path(node)));
-      found.back().solved = true;
     }
     std::stable_sort(found.begin(), found.end(),
                      [](const Plan& a, const Plan& b) { return a.score > b.score; });
@@ -136,7 +141,8 @@ class Takes {
       const bool isNew = std::all_of(plans_.begin(), plans_.end(), [&](const Plan& other) {
         return differentPaths(plan, other);
       });
-      if (isNew && plans_.size() < wanted) plans_.push_back(std::move(plan));
+      if (!isNew || plans_.size() >= wanted) continue;
+      if (isAccepted(plan)) plans_.push_back(std::move(plan));
     }
   }
   [[nodiscard]] bool enough() const {
@@ -145,8 +151,21 @@ class Takes {
   [[nodiscard]] std::vector<Plan>& plans() { return plans_; }
 
  private:
+  /// Those of earlier passes have been.
+  bool isAccepted(Plan& plan) {
+    constexpr int kMostRefused = 20;
+    if (plan.solved) return true;
+    if (refused_ == kMostRefused) return false;
+    plan.solved = true;
+    plan.bendCap = problem_.request.settings.bendCap;
+    if (problem_.request.accepted(plan)) return true;
+    ++refused_;
+    return false;
+  }
+
   const ShootingProblem& problem_;
   std::vector<Plan> plans_;
+  int refused_ = 0;
 };
 
 }  // namespace
@@ -170,14 +189,20 @@ Result<std::vector<Plan>> ShootingPlanner::plan(const PlanRequest& request,
   std::vector<Plan> partial;
   const int passes =
       std::max(1, static_cast<int>(std::lround(settings_.passes * request.settings.effort)));
+  std::vector<bool> hard(problem.targets.size(), false);
   for (int pass = 0; pass < passes && !stop(); ++pass) {
-    ShootingSearch search(problem, static_cast<std::uint64_t>(pass), 1 + 0.5 * pass);
+    ShootingSearch search(problem, static_cast<std::uint64_t>(pass), 1 + 0.5 * pass, hard);
     search.run(stop, [&](double share) { progress("search", (pass + share) / passes); });
     takes.add(search);
     if (takes.plans().empty()) {
       const ShootingNode* farthest = search.farthest();
       Plan plan;
-      if (farthest != nullptr) plan = planOf(problem, search.path(*farthest));
+      if (farthest != nullptr) {
+        plan = planOf(problem, search.path(*farthest));
+        for (int k = 0; k < settings_.hardContacts; ++k) {
+          hard[static_cast<std::size_t>(std::max(0, farthest->level - k))] = true;
+        }
+      }
       plan.failure = failureOf(problem, search, farthest);
       partial.push_back(std::move(plan));
       // Other seeds meet the second contact no better; what can be done there does not depend on

@@ -36,7 +36,30 @@ struct ShootingPlannerSettings {
   double dropPenalty = 6;         ///< log units for an event of weight 1 that was dropped
   int passes = 6;                 ///< searches with other seeds and wider beams, at most
   double goodScore = 0.9;         ///< enough to stop after the first pass
-  int outlookDrops = 1000;        ///< drops from which the energy outlook is learnt
+  /// Contacts before one that a pass did not get past, in which the next passes follow so many
+  /// times the beam for so many contacts as they would go on by themselves, and what a rhythm that
+  /// fits is worth in rank.
+  int hardContacts = 5, hardBeam = 6, hardAhead = 4;
+  double hardWeight = 0.5;
+  int outlookDrops = 1000;  ///< drops from which the energy outlook is learnt
+  /// Transitions to events of a database; none with "shoot" (docs/hybrid.md).
+  int aimedEvents = 0;        ///< candidates for each contact, by rhythm
+  int aimedEndings = 0;       ///< likewise for a terminal last contact
+  int aimedRoots = 0;         ///< of them, first contacts
+  int aimedBeam = 40;         ///< best motions that are aimed at candidates ...
+  int aimedEndingBeam = 300;  ///< ... and at endings
+  int aimedTries = 3;         ///< of which so many are flown to
+  bool symmetry = true;       ///< events are taken under all symmetries of the body
+  double aimedCost = 10;      ///< log units that one may cost
+
+  /// Of the planner "hybrid".
+  [[nodiscard]] static ShootingPlannerSettings hybrid() {
+    ShootingPlannerSettings settings;
+    settings.aimedEvents = 150;
+    settings.aimedEndings = 1500;
+    settings.aimedRoots = 300;
+    return settings;
+  }
 };
 
 }  // namespace ifa

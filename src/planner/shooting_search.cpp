@@ -7,6 +7,7 @@
 
 #include "base/parallel.h"
 #include "base/portable_math.h"
+#include "body/symmetry.h"
 #include "planner/shooting_worker.h"
 #include "sampler/drop_statistics.h"
 
@@ -20,24 +21,62 @@ constexpr double kNoBound = -1e300;
 
 bool better(const ShootingNode& a, const ShootingNode& b) { return a.worth() > b.worth(); }
 
+/// Log units for gaps that a motion has where others are wanted: what lies farther ahead can still
+/// be changed, and one that does not fit is no reason to forget how well the others do.
+double rhythmCost(const std::vector<double>& gaps, const std::vector<double>& wanted) {
+  constexpr double kPrecision = 0.003, kShare = 0.1, kMost = 9, kFade = 0.7;
+  double cost = 0, weight = 1;
+  for (std::size_t m = 0; m < wanted.size(); ++m, weight *= kFade) {
+    double step = kMost;
+    if (m < gaps.size()) {
+      const double off = (gaps[m] - wanted[m]) / (kPrecision + kShare * wanted[m]);
+      step = std::min(kMost, off * off);
+    }
+    cost += weight * step;
+  }
+  return cost;
+}
+
 }  // namespace
 
 ShootingProblem::ShootingProblem(const PlanRequest& planned, const ShootingPlannerSettings& tuning)
     : request(planned), settings(tuning), model(*planned.body, planned.surface) {
   recorder = audibleCut(*planned.body, planned.surface);
-  std::vector<double> starts, amplitudes;
+  std::vector<double> times, amplitudes;
   for (const SignatureEvent& event : planned.signature.events) {
     targets.push_back(heardOf(event));
-    starts.push_back(event.time);
+    times.push_back(event.time);
     amplitudes.push_back(event.amplitude);
   }
   for (std::size_t k = 0; k + 1 < targets.size(); ++k) {
-    features.push_back(EnergyOutlook::features(starts, amplitudes, k));
+    features.push_back(EnergyOutlook::features(times, amplitudes, k));
   }
   if (planned.outlook) {
     outlook = *planned.outlook;
   } else if (targets.size() > 1) {
     outlook = EnergyOutlook::learn(*planned.body, model, recorder, settings.outlookDrops);
+  }
+  if (planned.database != nullptr && settings.aimedEvents > 0) aim();
+}
+
+void ShootingProblem::aim() {
+  const EventDatabase& database = *request.database;
+  group = settings.symmetry ? findSymmetry(*request.body).elements()
+                            : std::vector<Eigen::Matrix3d>{Eigen::Matrix3d::Identity()};
+  std::vector<std::vector<RhythmMatch>> matches(targets.size());
+  parallelFor(targets.size(), [&](std::size_t level) {
+    const bool ends = level + 1 == targets.size() && request.signature.terminal;
+    const int count = ends         ? settings.aimedEndings
+                      : level == 0 ? settings.aimedRoots
+                                   : settings.aimedEvents;
+    matches[level] =
+        eventsInRhythm(database, request.signature, level, static_cast<std::size_t>(count));
+  });
+  for (const RhythmMatch& match : matches[0]) starts.push_back(match.event);
+  // No motion comes to the first contact from another one.
+  matches[0].clear();
+  for (const auto& events : matches) {
+    aims.emplace_back(database, events, group, request.body->radius);
   }
 }
 
@@ -51,10 +90,12 @@ void ShootingDeaths::operator+=(const ShootingDeaths& o) {
   restless += o.restless;
 }
 
-ShootingSearch::ShootingSearch(const ShootingProblem& problem, std::uint64_t pass, double width)
+ShootingSearch::ShootingSearch(const ShootingProblem& problem, std::uint64_t pass, double width,
+                               std::vector<bool> hard)
     : problem_(problem),
       pass_(pass),
       width_(width),
+      hard_(std::move(hard)),
       levels_(problem.targets.size()),
       deaths_(problem.targets.size()) {}
 
@@ -69,7 +110,11 @@ void ShootingSearch::run(const std::function<bool()>& stop,
       if (complete_.size() > kMostComplete) complete_.resize(kMostComplete);
       break;
     }
-    keepBest(levels_[level]);
+    if (level < hard_.size() && hard_[level]) {
+      keepBest(levels_[level], problem_.settings.hardBeam * problem_.settings.beam * width_);
+      followOn(levels_[level], level);
+    }
+    keepBest(levels_[level], problem_.settings.beam * width_);
     expandLevel(level, stop);
     progress(static_cast<double>(level + 1) / static_cast<double>(n));
   }
@@ -81,14 +126,19 @@ void ShootingSearch::plantRoots(const std::function<bool()>& stop) {
   const bool few = static_cast<int>(levels_.size()) <= set.fewContacts;
   const auto late = few ? static_cast<std::size_t>(set.lateContacts * width_) : 0;
   const std::uint64_t seed = problem_.request.settings.seed + (pass_ << 32);
-  const std::size_t count = fresh + late, batches = (count + kBatch - 1) / kBatch;
+  const std::size_t sampled = fresh + late, count = sampled + problem_.starts.size(),
+                    batches = (count + kBatch - 1) / kBatch;
   std::vector<std::vector<ShootingNode>> made(batches);
   parallelFor(batches, [&](std::size_t batch) {
     if (stop()) return;
     ShootingWorker worker(problem_);
     for (std::size_t i = batch * kBatch; i < std::min(count, (batch + 1) * kBatch); ++i) {
       const auto root = static_cast<unsigned>(i);
-      i < fresh ? worker.plant(root, seed) : worker.plantLate(root, seed);
+      if (i >= sampled) {
+        worker.plantEvent(root, problem_.starts[i - sampled]);
+      } else {
+        i < fresh ? worker.plant(root, seed) : worker.plantLate(root, seed);
+      }
     }
     made[batch] = std::move(worker.children);
   });
@@ -134,7 +184,27 @@ void ShootingSearch::expandLevel(std::size_t level, const std::function<bool()>&
   }
 }
 
-void ShootingSearch::keepBest(std::vector<ShootingNode>& candidates) const {
+/// Ranks motions also by how their own rhythm, when they are left to themselves, fits the contacts
+/// that follow: where several gaps in a row cannot be flown, it must fit as it is.
+void ShootingSearch::followOn(std::vector<ShootingNode>& nodes, std::size_t level) const {
+  const auto& events = problem_.request.signature.events;
+  const auto& set = problem_.settings;
+  const std::size_t count =
+      std::min(static_cast<std::size_t>(set.hardAhead), events.size() - 1 - level);
+  std::vector<double> wanted;
+  for (std::size_t m = 0; m < count; ++m)
+    wanted.push_back(events[level + m + 1].time - events[level + m].time);
+  const double horizon = 1.3 * (events[level + count].time - events[level].time) + 0.02;
+  parallelFor(nodes.size(), [&](std::size_t i) {
+    EventSimulation simulation(problem_.model, problem_.recorder);
+    ShootingNode& node = nodes[i];
+    std::vector<double> gaps = simulation.rhythm(node.event.after, count, horizon);
+    if (!gaps.empty()) gaps[0] += node.event.end;
+    node.rank -= set.hardWeight * rhythmCost(gaps, wanted);
+  });
+}
+
+void ShootingSearch::keepBest(std::vector<ShootingNode>& candidates, double beam) const {
   const auto& set = problem_.settings;
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const auto& a, const auto& b) { return a.rank > b.rank; });
@@ -142,7 +212,7 @@ void ShootingSearch::keepBest(std::vector<ShootingNode>& candidates) const {
   std::map<unsigned, int> ofRoot;
   std::map<int, int> ofBin;
   std::vector<ShootingNode> kept;
-  const auto most = static_cast<std::size_t>(set.beam * width_);
+  const auto most = static_cast<std::size_t>(beam);
   // Where few parents, or few first contacts, are left, the beam is still filled from them.
   std::set<std::pair<int, int>> parents;
   std::set<unsigned> roots;
@@ -151,9 +221,9 @@ void ShootingSearch::keepBest(std::vector<ShootingNode>& candidates) const {
     roots.insert(node.root);
   }
   const auto share = [&](int quota, std::size_t groups) {
-    const double even =
-        1.5 * set.beam * width_ / static_cast<double>(std::max<std::size_t>(1, groups));
-    return std::max(quota, static_cast<int>(even));
+    const double even = 1.5 * beam / static_cast<double>(std::max<std::size_t>(1, groups));
+    const double wider = beam / (set.beam * width_);
+    return std::max(static_cast<int>(quota * wider), static_cast<int>(even));
   };
   const int perParent = share(set.perParent, parents.size());
   const int perRoot = share(set.perRoot, roots.size());
@@ -164,7 +234,7 @@ void ShootingSearch::keepBest(std::vector<ShootingNode>& candidates) const {
     int& parent = ofParent[{node.parentLevel, node.parent}];
     int &root = ofRoot[node.root], &energy = ofBin[bin];
     const bool full = (node.parent >= 0 && parent >= perParent) || root >= perRoot ||
-                      energy >= static_cast<int>(set.perEnergyBin * width_);
+                      energy >= static_cast<int>(set.perEnergyBin * beam / set.beam);
     if (full) continue;
     ++parent;
     ++root;

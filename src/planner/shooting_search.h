@@ -9,6 +9,7 @@
 
 #include "affinity/factors.h"
 #include "base/random.h"
+#include "planner/aimed_events.h"
 #include "planner/energy_outlook.h"
 #include "planner/event_simulation.h"
 #include "planner/flight_timing.h"
@@ -28,6 +29,12 @@ struct ShootingProblem {
   EnergyOutlook outlook;
   std::vector<HeardEvent> targets;
   std::vector<EnergyOutlook::Features> features;  ///< of what follows each target but the last
+  std::vector<Eigen::Matrix3d> group;             ///< symmetries of the body, principal frame
+  std::vector<AimedEvents> aims;                  ///< for each target; empty without a database
+  std::vector<std::uint32_t> starts;              ///< events of the database to begin with
+
+ private:
+  void aim();
 };
 
 /// A motion up to one contact.
@@ -39,8 +46,11 @@ struct ShootingNode {
   double restitution = 0;                                    ///< inside this event
   Eigen::Vector3d velocityChange = Eigen::Vector3d::Zero();  ///< that leads here from the parent
   Eigen::Vector3d angularChange = Eigen::Vector3d::Zero();
-  double bend = 0;
+  /// By how much the event's own velocities differ from those with which the body arrives.
+  Eigen::Vector3d arrivalChange = Eigen::Vector3d::Zero(), arrivalAngular = Eigen::Vector3d::Zero();
+  double bend = 0, arrivalBend = 0;
   Arrival arrival = Arrival::kFlight;
+  ContactSource source;
   HeardEvent heard;
   double firstAmplitude = 1;  ///< N s
   LogScore log;
@@ -63,7 +73,9 @@ struct ShootingDeaths {
 
 class ShootingSearch {
  public:
-  ShootingSearch(const ShootingProblem& problem, std::uint64_t pass, double width);
+  /// @param hard  for each target, whether earlier passes found no way on a little later
+  ShootingSearch(const ShootingProblem& problem, std::uint64_t pass, double width,
+                 std::vector<bool> hard = {});
 
   /// Searches; `stop` is asked between batches and ends the search early.
   void run(const std::function<bool()>& stop, const std::function<void(double)>& progress);
@@ -81,11 +93,13 @@ class ShootingSearch {
  private:
   void plantRoots(const std::function<bool()>& stop);
   void expandLevel(std::size_t level, const std::function<bool()>& stop);
-  void keepBest(std::vector<ShootingNode>& candidates) const;
+  void keepBest(std::vector<ShootingNode>& candidates, double beam) const;
+  void followOn(std::vector<ShootingNode>& nodes, std::size_t level) const;
 
   const ShootingProblem& problem_;
   std::uint64_t pass_;
   double width_;
+  std::vector<bool> hard_;
   std::vector<std::vector<ShootingNode>> levels_;  ///< kept, by target
   std::vector<ShootingDeaths> deaths_;             ///< on the way out of each level
   std::vector<ShootingNode> complete_;

@@ -18,6 +18,8 @@ class ShootingWorker {
   void plant(unsigned root, std::uint64_t seed);
   /// The same from a contact late in the drop that begins there.
   void plantLate(unsigned root, std::uint64_t seed);
+  /// Motions of one contact, an event of the database.
+  void plantEvent(unsigned root, std::uint32_t event);
   /// Motions from `node` to target `level` (later than the node's own).
   /// @param effort  scales the number of children
   /// @param bound  children whose log score cannot get above are not simulated
@@ -34,6 +36,11 @@ class ShootingWorker {
     Arrival arrival = Arrival::kFlight;
     double duration = 0;
   };
+  /// Velocities that a contact makes up for at once, so that it goes as it did in the database.
+  struct Jump {
+    ContactSource source;
+    Eigen::Vector3d linear = Eigen::Vector3d::Zero(), angular = Eigen::Vector3d::Zero();
+  };
 
   void shoot(const ShootingNode& node, ShootingNode child, const PlausibleRegion& region,
              const Coordinates& wish, double duration, double restitution, double bound);
@@ -45,7 +52,15 @@ class ShootingWorker {
                   double bound);
   [[nodiscard]] bool stuckAfter(int level) const;
   void arrive(const ShootingNode& node, ShootingNode child, const Edge& edge,
-              const RigidState& arrival, double restitution, double bound);
+              const RigidState& arrival, double restitution, double bound, const Jump& jump);
+  void arrive(const ShootingNode& node, const ShootingNode& child, const Edge& edge,
+              const RigidState& arrival, double restitution, double bound) {
+    arrive(node, child, edge, arrival, restitution, bound, {});
+  }
+  void shootAimed(const ShootingNode& node, const ShootingNode& child,
+                  const PlausibleRegion& region, double duration, double bound);
+  [[nodiscard]] bool makesUpFor(const Jump& jump, const RigidState& arrival,
+                                ShootingNode& ending) const;
   void judge(ShootingNode& child) const;
   [[nodiscard]] double lookAhead(ShootingNode& node) const;
   [[nodiscard]] double flightCost(const ShootingNode& node, double duration) const;
