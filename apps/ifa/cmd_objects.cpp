@@ -14,6 +14,7 @@
 #include "body/new_object.h"
 #include "body/object_file.h"
 #include "body/simple_hull.h"
+#include "body/symmetry.h"
 #include "command.h"
 
 namespace ifa::cli {
@@ -74,6 +75,13 @@ std::string hullText(std::size_t vertices, std::size_t exactVertices, double dev
                             exactVertices, 1e3 * deviation);
 }
 
+std::string symmetryText(const SymmetryGroup& group) {
+  if (group.order() == 1) return "none (C1)";
+  return fmt::format("{}: order {}, {}{}", group.name(), group.order(),
+                     counted(group.rotations(), "rotation"),
+                     group.nearlyOfRevolution() ? "; nearly of revolution" : "");
+}
+
 std::string bodyText(const Body& body) {
   const ObjectDefinition& d = body.definition;
   const char* kind =
@@ -93,6 +101,7 @@ std::string bodyText(const Body& body) {
                           counted(body.mesh.materials.size(), "material"));
   text +=
       row("convex hull", hullText(body.hull.size(), body.exactHullVertices, body.hullDeviation));
+  text += row("symmetry", symmetryText(findSymmetry(body)));
   for (const auto& [name, surface] : d.surfaces) {
     text +=
         row((name == d.defaultSurface ? "on " + name + " *" : "on " + name), surfaceText(surface));
