@@ -12,12 +12,13 @@ namespace fs = std::filesystem;
 namespace {
 
 DatabaseRequest requestOf(const Body& body, const SurfaceProperties& surface,
-                          const std::string& surfaceName, std::uint64_t simulations) {
+                          const std::string& surfaceName, const GraphOptions& options) {
   DatabaseRequest request;
   request.body = &body;
   request.surface = surface;
   request.surfaceName = surfaceName;
-  request.simulations = simulations;
+  request.simulations = options.simulations;
+  request.cut = options.cut.value_or(EventCut::kAudible);
   request.resume = request.wait = true;
   return request;
 }
@@ -38,13 +39,15 @@ Result<void> ensureCached(const DatabaseRequest& request, const fs::path& path,
 }
 
 /// What is planned from a database is simulated again, so body, surface and simulation must be the
-/// same; seed and size need not.
-Result<EventDatabase> openFor(const DatabaseRequest& request, const fs::path& path) {
+/// same; seed and size need not, nor the cut of its events where none is asked for.
+Result<EventDatabase> openFor(DatabaseRequest request, const std::optional<EventCut>& cut,
+                              const fs::path& path) {
   auto database = EventDatabase::open(path);
   if (!database) return database;
   if (auto same = database->checkBody(*request.body); !same) return tl::unexpected(same.error());
-  DatabaseIdentity wanted = identityOf(request);
   const DatabaseIdentity& there = database->header().identity;
+  request.cut = cut.value_or(cutOf(there.settings));
+  DatabaseIdentity wanted = identityOf(request);
   wanted.seed = there.seed;
   wanted.allSimulations = there.allSimulations;
   if (auto same = database->checkIdentity(wanted); !same) return tl::unexpected(same.error());
@@ -66,7 +69,7 @@ Result<std::shared_ptr<const ContactGraph>> GraphShelf::get(const Body& body,
                                                             const std::string& surfaceName,
                                                             const Progress& progress) {
   const std::lock_guard lock(mutex_);
-  const DatabaseRequest request = requestOf(body, surface, surfaceName, options_.simulations);
+  const DatabaseRequest request = requestOf(body, surface, surfaceName, options_);
   const bool named = !options_.database.empty();
   const fs::path path = named ? options_.database : cachedDatabasePath(identityOf(request));
   if (graph_ && path == path_) return graph_;
@@ -76,7 +79,7 @@ Result<std::shared_ptr<const ContactGraph>> GraphShelf::get(const Body& body,
     }
   }
   graph_.reset();
-  auto database = openFor(request, path);
+  auto database = openFor(request, options_.cut, path);
   if (!database) return tl::unexpected(database.error());
   auto graph = ContactGraph::make(std::move(*database), body, graphSettings(), progress);
   if (!graph) return tl::unexpected(graph.error());

@@ -22,8 +22,8 @@ class GraphShelf {
       : options_(std::move(options)), energyGain_(energyGain) {}
 
   /// @param surface  with its J_ref
-  /// Errors: kBadInput for a database of another body, surface or version, kInterrupted; those of
-  /// buildDatabase.
+  /// Errors: kBadInput for a database of another body, surface, version or cut, kInterrupted; those
+  /// of buildDatabase.
   [[nodiscard]] Result<std::shared_ptr<const ContactGraph>> get(const Body& body,
                                                                 const SurfaceProperties& surface,
                                                                 const std::string& surfaceName,

@@ -22,7 +22,8 @@ PlanarTransform shiftTo(const RigidState& state) {
 PathConnector::PathConnector(const PlanRequest& request)
     : graph_(*request.graph),
       model_(*request.body, request.surface),
-      recorder_(audibleCut(*request.body, request.surface)),
+      recorder_(recorderFor(cutOf(graph_.database().header().identity.settings), *request.body,
+                            request.surface)),
       chain_(model_, recorder_) {
   if (graph_.settings().connection == ConnectionKind::kBlend) {
     connection_ = ConnectionSettings::printed();
@@ -77,7 +78,7 @@ bool PathConnector::reachable(std::uint32_t id, const ConnectedEdge& edge) {
   const double impulse =
       model_.mass * std::max((beginning.first - edge.arrival.velocity).norm(),
                              (beginning.afterBin + fallen - edge.arrival.velocity).norm());
-  return impulse - 2 * recorder_.weight * kBin > recorder_.threshold;
+  return recorder_.counts(recorder_.excess(impulse, kBin));
 }
 
 void PathConnector::weigh(std::uint32_t from, std::uint32_t sibling, double time,
