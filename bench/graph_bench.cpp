@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Best transitions of an event database: are those that the search trees find those of a full scan,
 // and how much sooner are they found. Queries are contacts of drops that are not in the database.
-//   graph_bench OBJECT FILE|SIMULATIONS [QUERIES]
-// With a number of simulations the database is made in the cache, where it is not there yet.
+//   graph_bench OBJECT FILE|SIMULATIONS [QUERIES [audible|paper]]
+// With a number of simulations the database is made in the cache, where it is not there yet, by the
+// cut named last.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -65,12 +66,12 @@ double residentMegabytes() {
 }
 
 /// What some contact of a drop was followed by, changed: time by up to 10 %, loudness by 30 %.
-Query makeQuery(const Body& body, const ifa::BodyModel& model, double mergeGap, std::size_t q) {
+Query makeQuery(const Body& body, const ifa::BodyModel& model, const ifa::RecorderSettings& cut,
+                std::size_t q) {
   ifa::RandomStream random(kSeed, q);
   for (std::size_t attempt = 0;; ++attempt) {
     const auto start = ifa::sampleInitialState(body, kSeed + 1, q + (attempt << 32));
-    const auto events = ifa::eventsOf(ifa::simulateDrop(model, start, kTimeLimit),
-                                      ifa::audibleCut(body, model.surface));
+    const auto events = ifa::eventsOf(ifa::simulateDrop(model, start, kTimeLimit), cut);
     if (events.size() < 2) continue;
     const std::size_t i = random.below(events.size() - 1);
     const ContactEvent &from = events[i], &to = events[i + 1];
@@ -78,7 +79,7 @@ Query makeQuery(const Body& body, const ifa::BodyModel& model, double mergeGap, 
     if (from.touchingAfter || !(time > 0)) continue;
     return {{from.before, from.after},
             {time * random.uniform(0.9, 1.1),
-             {to.amplitude / first * random.uniform(0.7, 1.3), to.filteredDuration(mergeGap),
+             {to.amplitude / first * random.uniform(0.7, 1.3), to.filteredDuration(cut.mergeGap),
               to.centroid},
              to.terminal,
              first}};
@@ -90,9 +91,9 @@ std::vector<Query> makeQueries(const Body& body, const EventDatabase& database, 
   const ifa::DatabaseSettings& made = database.header().identity.settings;
   surface.referenceImpulse = made.referenceImpulse;
   const ifa::BodyModel model(body, surface);
+  const ifa::RecorderSettings cut = ifa::recorderFor(ifa::cutOf(made), body, surface);
   std::vector<Query> queries(count);
-  ifa::parallelFor(count,
-                   [&](std::size_t q) { queries[q] = makeQuery(body, model, made.mergeGap, q); });
+  ifa::parallelFor(count, [&](std::size_t q) { queries[q] = makeQuery(body, model, cut, q); });
   return queries;
 }
 
@@ -321,7 +322,7 @@ bool report(const char* name, const EventDatabase& database, const Body& body,
 }
 
 /// Where the database is; made where it was asked for by a number of simulations.
-std::string databaseOf(const Body& body, const std::string& asked) {
+std::string databaseOf(const Body& body, const std::string& asked, ifa::EventCut cut) {
   if (asked.find_first_not_of("0123456789") != std::string::npos) return asked;
   ifa::DatabaseRequest request;
   request.body = &body;
@@ -330,6 +331,7 @@ std::string databaseOf(const Body& body, const std::string& asked) {
       ifa::withReferenceImpulse(body, body.definition.surfaces.at(request.surfaceName), {});
   request.simulations = std::strtoull(asked.c_str(), nullptr, 10);
   request.resume = true;
+  request.cut = cut;
   const auto path = ifa::cachedDatabasePath(ifa::identityOf(request));
   const auto built = ifa::buildDatabase(request, path, {});
   if (!built) fmt::print(stderr, "{}\n", built.error().text());
@@ -340,7 +342,7 @@ std::string databaseOf(const Body& body, const std::string& asked) {
 
 int main(int argc, char** argv) {
   if (argc < 3) {
-    fmt::print(stderr, "graph_bench OBJECT FILE|SIMULATIONS [QUERIES]\n");
+    fmt::print(stderr, "graph_bench OBJECT FILE|SIMULATIONS [QUERIES [audible|paper]]\n");
     return EXIT_FAILURE;
   }
   const auto body = ifa::loadObject(argv[1]);
@@ -348,12 +350,14 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "{}\n", body.error().text());
     return EXIT_FAILURE;
   }
-  const auto database = EventDatabase::open(databaseOf(*body, argv[2]));
+  const auto database =
+      EventDatabase::open(databaseOf(*body, argv[2], ifa::cutNamed(argc > 4 ? argv[4] : "")));
   if (!database) {
     fmt::print(stderr, "{}\n", database.error().text());
     return EXIT_FAILURE;
   }
-  fmt::print("{}: {} events\n", argv[1], database->events());
+  fmt::print("{}: {} events, cut {}\n", argv[1], database->events(),
+             ifa::cutName(ifa::cutOf(database->header().identity.settings)));
   const auto queries =
       makeQueries(*body, *database, argc > 3 ? std::strtoul(argv[3], nullptr, 10) : 2000);
   GraphSettings printed, warped;

@@ -1,35 +1,50 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# table1.sh [IFA_PROGRAM [SECONDS [SIMULATIONS]]]: planner "graph" on the evaluation set as in the
-# paper's Table 1, with both velocity references: the first five odd-numbered signatures of each
-# object, SECONDS (60) of search each, databases of SIMULATIONS (400000) drops. Databases are made,
-# used and deleted one after another. Prints Markdown. Takes over an hour on two cores.
+# [VARIANTS="blend printed paper"] [JOBS=2]
+#   table1.sh [IFA_PROGRAM [SECONDS [SIMULATIONS [OBJECT...]]]]
+# Planner "graph" on the evaluation set as in the paper's Table 1: the first five odd-numbered
+# signatures of each object, SECONDS (60) of search each, databases of SIMULATIONS (400000) drops,
+# JOBS searches at a time. Variants: "blend" compares v_blend with v_i+, flights exact; "printed"
+# compares and blends as the paper prints it; "paper" does that with the paper's own cut of contact
+# events, signatures of the same drops included. Databases are made, used and deleted one after
+# another. Prints Markdown. Takes about half an hour a variant on two cores.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 ifa=$(realpath "${1:-build/release/bin/ifa}")
 seconds=${2:-60}
 simulations=${3:-400000}
+objects=("${@:4}")
+if [ ${#objects[@]} -eq 0 ]; then
+  for folder in tests/evaluation/*/; do objects+=("$(basename "$folder")"); done
+fi
+variants=" ${VARIANTS:-blend printed paper} "
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 export XDG_CACHE_HOME=$work/cache
 
-# search OBJECT NAME [OPTION...]: one row, as JSON
+# search OBJECT VARIANT CUT SIGNATURES [OPTION...]: one row, as JSON
 search() {
-  local object=$1 name=$2
-  shift 2
-  "$ifa" evaluate "$work/set" --parity odd --limit 5 --jobs 2 --planner graph --early-exit 1 \
-    --simulations "$simulations" --time-limit "$seconds" -o "$work/$object-$name" "$@" \
-    >/dev/null 2>>"$work/log"
+  local object=$1 name=$2 cut=$3 signatures=$4
+  shift 4
+  [[ $variants == *" $name "* ]] || return 0
+  echo "$object, $name" >&2
+  rm -rf "$work/set"
+  mkdir "$work/set"
+  cp -r "$signatures/$object" "$work/set/$object"
+  "$ifa" database build "$object" -n "$simulations" --cut "$cut" >/dev/null 2>>"$work/log"
+  "$ifa" evaluate "$work/set" --parity odd --limit 5 --jobs "${JOBS:-2}" --planner graph \
+    --early-exit 1 --simulations "$simulations" --cut "$cut" --time-limit "$seconds" \
+    -o "$work/$object-$name" "$@" >/dev/null 2>>"$work/log"
 }
 
-for folder in tests/evaluation/*/; do
-  object=$(basename "$folder")
-  rm -rf "$work/set" "$work/cache"
-  mkdir "$work/set"
-  cp -r "$folder" "$work/set/$object"
-  echo "$object" >&2
-  "$ifa" database build "$object" -n "$simulations" >/dev/null 2>>"$work/log"
-  search "$object" blend
-  search "$object" printed --printed-velocity --connection blend
+for object in "${objects[@]}"; do
+  search "$object" blend audible tests/evaluation
+  search "$object" printed audible tests/evaluation --printed-velocity --connection blend
+  rm -rf "$work/cache"
+  if [[ $variants == *" paper "* ]]; then
+    "$(dirname "$ifa")/make_evaluation" "$object" --cut paper -o "$work/paper" >/dev/null
+  fi
+  search "$object" paper paper "$work/paper" --printed-velocity --connection blend
+  rm -rf "$work/cache"
 done
 python3 scripts/table1.py "$work"

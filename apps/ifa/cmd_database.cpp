@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 namespace {
 
 struct BuildOptions {
-  std::string object, surface, shard, backend = "native";
+  std::string object, surface, shard, backend = "native", cut = "audible";
   fs::path output;
   DatabaseRequest request;
 };
@@ -101,6 +101,7 @@ int runBuild(const BuildOptions& options, CommandContext& context) {
   DatabaseRequest request = options.request;
   request.body = &*body;
   request.backend = options.backend == "ode" ? Backend::kOde : Backend::kNative;
+  request.cut = cutNamed(options.cut);
   request.surfaceName = options.surface;
   const auto surface = findSurface(*body, request.surfaceName);
   if (!surface) return context.fail(surface.error());
@@ -168,6 +169,9 @@ void addBuild(CLI::App& database, CommandContext& context) {
   command->add_flag("--resume", options->request.resume, "go on with an interrupted build");
   command->add_option("--backend", options->backend, "native, or ode for comparison")
       ->check(CLI::IsMember({"native", "ode"}))
+      ->capture_default_str();
+  command->add_option("--cut", options->cut, "events: audible, or paper (any impulse above zero)")
+      ->check(CLI::IsMember({"audible", "paper"}))
       ->capture_default_str();
   command->callback([options, &context] {
     if (!options->shard.empty()) (void)readShard(options->shard, options->request);

@@ -59,6 +59,7 @@ std::string headerText(const EventDatabase& database) {
   text += row("size", fmt::format("{:.4g} MB, {:.1f} bytes an event",
                                   1e-6 * static_cast<double>(header.fileBytes),
                                   static_cast<double>(header.fileBytes) / events));
+  text += row("cut", std::string(cutName(cutOf(id.settings))));
   text += row("settings", settingsText(id.settings));
   return text + row("hashes", fmt::format("file {:016x}, body {:016x}, settings {:016x}",
                                           database.hash(), id.bodyHash, id.settingsHash));

@@ -15,6 +15,13 @@ void addGraphOptions(CLI::App& command, GraphOptions& options) {
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1000000000}))
       ->capture_default_str()
       ->group(group);
+  command
+      .add_option_function<std::string>(
+          "--cut", [&options](const std::string& name) { options.cut = cutNamed(name); },
+          "events of the database: audible ones, or the paper's, any impulse above zero (default: "
+          "what --database has, else audible)")
+      ->check(CLI::IsMember({"audible", "paper"}))
+      ->group(group);
   command.add_option("--early-exit", options.earlyExit, "a motion of this Score ends the search")
       ->check(numberFrom(0, 1))
       ->capture_default_str()

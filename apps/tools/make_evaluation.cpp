@@ -35,13 +35,15 @@ struct Options {
   std::filesystem::path folder = std::filesystem::path(IFA_SOURCE_DIR) / "tests" / "evaluation";
   std::size_t drops = 1500;
   std::uint64_t seed = 2014;
+  ifa::EventCut cut = ifa::EventCut::kAudible;
 };
 
 /// One drop of a body that differs a little from the nominal one.
 struct Drop {
   std::uint64_t index = 0;
   double restitution = 0, size = 1;
-  ifa::ContactSignature signature;
+  ifa::ContactSignature signature;  ///< audible: cases are chosen by it, whatever the cut
+  ifa::ContactSignature written;    ///< by the cut asked for
   bool rested = false, keptEnergy = false;
 };
 
@@ -66,7 +68,11 @@ Drop simulate(const Body& nominal, const Options& options, std::uint64_t index) 
   drop.keptEnergy = ifa::largestEnergyRise(body, events) <= kEnergyRise * initial;
   ifa::ListenerSettings listener;
   listener.mergeGap = definition.mergeGap;
+  const ifa::RandomStream errors = random;  // each cut is heard with the same ones
   drop.signature = ifa::listenTo(events, listener, random);
+  random = errors;
+  drop.written = ifa::listenTo(ifa::eventsOf(result, ifa::recorderFor(options.cut, body, surface)),
+                               listener, random);
   return drop;
 }
 
@@ -124,6 +130,7 @@ ObjectSet makeObjectSet(const Body& body, double paperMean, const Options& optio
   set.kept = kept.size();
   set.meanOfDrops = meanContacts(kept);
   if (kept.size() >= kCases) chooseCases(set, std::move(kept));
+  for (Drop& drop : set.cases) drop.signature = drop.written;
   return set;
 }
 
@@ -152,15 +159,22 @@ nominal object.
   short of the paper's n.
 - Heard: starts off by a uniform +-3 ms, ends by +-8 ms, amplitudes relative to the first by +-30 %;
   starts stay a merge gap apart, ends a merge gap before the next start; what is then shorter than
-  the merge gap is discrete. Events are audible events at the object's J_ref; all are terminal.
+  the merge gap is discrete. Events are {events}; all are terminal.
 - Even-numbered cases are for tuning, odd-numbered ones are only reported.
 
 )";
 
+const char* eventsText(ifa::EventCut cut) {
+  return cut == ifa::EventCut::kPaper
+             ? "those of the paper's cut, any impulse above zero until the body rests"
+             : "audible events at the object's J_ref";
+}
+
 std::string readmeText(const std::vector<ObjectSet>& sets, const Options& options) {
-  std::string text = fmt::format(kIntroduction, fmt::arg("seed", options.seed),
-                                 fmt::arg("last", options.drops - 1),
-                                 fmt::arg("fewest", kFewestContacts), fmt::arg("cases", kCases));
+  std::string text =
+      fmt::format(kIntroduction, fmt::arg("seed", options.seed),
+                  fmt::arg("last", options.drops - 1), fmt::arg("fewest", kFewestContacts),
+                  fmt::arg("cases", kCases), fmt::arg("events", eventsText(options.cut)));
   text +=
       "| object | paper's n | mean n | even, odd | from | drops kept | their mean n | "
       "restitution | J_ref, N s |\n|---|---|---|---|---|---|---|---|---|\n";
@@ -213,6 +227,10 @@ int main(int argc, char** argv) {
   app.add_option("-o", options.folder, "folder to write in");
   app.add_option("-n", options.drops, "drops per object");
   app.add_option("--seed", options.seed);
+  app.add_option_function<std::string>(
+         "--cut", [&options](const std::string& name) { options.cut = ifa::cutNamed(name); },
+         "events: audible (default), or paper: the same drops, any impulse above zero")
+      ->check(CLI::IsMember({"audible", "paper"}));
   CLI11_PARSE(app, argc, argv);
   if (options.objects.empty())
     options.objects.assign(ifa::evaluationObjects().begin(), ifa::evaluationObjects().end());

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "ifa/contact_signature.h"  // IWYU pragma: export
+#include "ifa/event_cut.h"          // IWYU pragma: export
 #include "ifa/film.h"               // IWYU pragma: export
 #include "ifa/motion.h"             // IWYU pragma: export
 #include "ifa/progress.h"           // IWYU pragma: export

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "ifa/event_cut.h"
+
 namespace ifa {
 
 /// Pose and velocities at one instant. World frame, z up, ground at z = 0.
@@ -108,6 +110,7 @@ struct Motion {
   BendSummary bend;
   double meanFv = 0;  ///< geometric mean of f_v
   std::optional<DatabaseReference> database;
+  EventCut cut = EventCut::kAudible;  ///< what its contacts are, for who looks for them
   std::vector<MotionContact> contacts;
   std::vector<std::array<double, 2>> silent;  ///< intervals of silent contact, s
   std::vector<MotionSample>

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ifa/contact_signature.h"
+#include "ifa/event_cut.h"
 #include "ifa/film.h"
 #include "ifa/motion.h"
 #include "ifa/progress.h"
@@ -24,9 +25,12 @@ inline constexpr int kMaxTakes = 32;
 struct GraphOptions {
   std::filesystem::path database;     ///< event database of object and surface; empty: the cache's
   std::uint64_t simulations = 40000;  ///< of the cache's database, which is made where it is not
-  bool printedVelocity = false;       ///< eq. 3 compares v_blend with v_j+, as printed, not v_i+
-  bool timeWarp = false;              ///< flights are blended, then shown at another pace (5.3.2)
-  double earlyExit = 0.3;             ///< a motion of this Score ends the search, 0 to 1
+  /// Of the cache's database: audible where it is not set. A database that is named has its own,
+  /// and is refused where that is not the one set.
+  std::optional<EventCut> cut;
+  bool printedVelocity = false;  ///< eq. 3 compares v_blend with v_j+, as printed, not v_i+
+  bool timeWarp = false;         ///< flights are blended, then shown at another pace (5.3.2)
+  double earlyExit = 0.3;        ///< a motion of this Score ends the search, 0 to 1
 };
 
 /// What is to be synchronised, and how. The defaults are those of `ifa sync`.

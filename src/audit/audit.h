@@ -20,7 +20,8 @@ struct AuditSettings {
   double angularMomentum = 1e-6;        ///< relative change over a flight
   double frictionMargin = 0.02;         ///< share by which an impulse may leave the friction cone
   double energyRounding = 1e-6;         ///< relative; what counts as no gain of energy
-  double audibleShare = kAudibleShare;  ///< threshold of hearing as a share of J_ref (method, 2)
+  double audibleShare = kAudibleShare;  ///< threshold of hearing as a share of J_ref (method, 2);
+                                        ///< not for motions of the paper's cut
   double noiseTime = 1e-6;              ///< impulses under m g times this are rounding, s
   double restDrift = 1e-9;              ///< m and rad, pose while at rest
 };
@@ -46,9 +47,9 @@ struct AuditReport {
   [[nodiscard]] const AuditCheck* find(const std::string& name) const;
 };
 
-/// Checks `motion` of `body`; the surface is looked up by `motion.object.surface` (J_ref), friction
-/// and mass are the motion's own. Never fails: a motion without samples fails its checks. Thread
-/// safe.
+/// Checks `motion` of `body`; the surface is looked up by `motion.object.surface` (J_ref),
+/// friction, mass and what counts as a contact (`motion.cut`) are the motion's own. Never fails: a
+/// motion without samples fails its checks. Thread safe.
 [[nodiscard]] AuditReport audit(const Motion& motion, const Body& body,
                                 const AuditSettings& settings = {});
 

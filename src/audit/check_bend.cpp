@@ -52,6 +52,16 @@ bool isChange(const Evidence& all, const Step& step, std::size_t index, const Ch
   return step.duration <= 0 && linear.norm() < kSameVelocity && angular.norm() < kSameSpin;
 }
 
+/// Whether a step only cuts what little motion is left where the body comes to rest ("rest speed"):
+/// no contact made that change.
+bool isFreezing(const Evidence& all, const Step& step) {
+  const MotionSample &a = all.sample(step.from), &b = all.sample(step.from + 1);
+  const double weight = all.mass * kGravity;
+  return step.duration <= 0 && a.time >= all.restTime - kSameTime && b.velocity.norm() == 0 &&
+         b.angularVelocity.norm() == 0 &&
+         all.energy(a) - weight * a.position.z() <= weight * all.depth;
+}
+
 /// Ends of contact `index`'s event; null where there is none. With a `change` that leads out of it,
 /// the last sample is the one right after that, where it is seen: it may press the body down again
 /// in the same instant.
@@ -59,6 +69,7 @@ EventEnds endsOf(const Evidence& all, std::size_t index, const Change* change = 
   EventEnds ends;
   for (const Step& step : all.steps) {
     if (step.kind != StepKind::kEvent || step.contact != index) continue;
+    if (ends.first != nullptr && isFreezing(all, step)) break;
     if (ends.first == nullptr) ends.first = &all.sample(step.from);
     ends.last = &all.sample(step.from + 1);
     if (change != nullptr && isChange(all, step, index, *change)) break;

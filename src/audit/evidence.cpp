@@ -49,8 +49,11 @@ Step makeStep(const Evidence& all, std::size_t from) {
   step.duration = b.time - a.time;
   // A retimed flight is played slower or faster than simulated; an event's first and last sample
   // belong to such flights with one side each.
-  double before = 1, after = 1;
-  if (step.kind == StepKind::kEvent) {
+  double before = 1, after = 1, simulated = step.duration;
+  if (step.kind == StepKind::kFlight) {
+    before = after = all.retiming(step.contact);
+    simulated /= before;
+  } else if (step.kind == StepKind::kEvent) {
     const MotionContact& contact = all.contact(step.contact);
     if (std::abs(a.time - contact.time) < kSameTime && isFirstAt(all.motion, from)) {
       before = all.retiming(step.contact);
@@ -60,7 +63,7 @@ Step makeStep(const Evidence& all, std::size_t from) {
     }
   }
   step.impulse = all.mass * (after * b.velocity - before * a.velocity +
-                             step.duration * kGravity * Eigen::Vector3d::UnitZ());
+                             simulated * kGravity * Eigen::Vector3d::UnitZ());
   return step;
 }
 
@@ -74,7 +77,8 @@ double restTimeOf(const Motion& motion) {
   return time;
 }
 
-double audibleThreshold(const Motion& motion, const Body& body, const AuditSettings& settings) {
+double eventThreshold(const Motion& motion, const Body& body, const AuditSettings& settings) {
+  if (motion.cut == EventCut::kPaper) return settings.noiseTime * body.mass * kGravity;
   const auto surface = body.definition.surfaces.find(motion.object.surface);
   if (surface == body.definition.surfaces.end()) return 0;
   return settings.audibleShare * surface->second.referenceImpulse;
@@ -93,6 +97,7 @@ bool isLastAt(const Motion& motion, std::size_t index) {
 }
 
 double Evidence::excess(const Eigen::Vector3d& impulse, double duration) const {
+  if (motion.cut == EventCut::kPaper) return impulse.norm();
   return std::max(0.0, impulse.norm() - 2 * mass * kGravity * std::max(kBin, duration));
 }
 
@@ -105,7 +110,7 @@ double Evidence::energy(const MotionSample& sample, double retiming) const {
 
 Evidence gatherEvidence(const Motion& motion, const Body& body, const AuditSettings& settings) {
   Evidence all{motion, body, settings, body.tolerance(), body.mass, 0, 0, {}, {}};
-  all.threshold = audibleThreshold(motion, body, settings);
+  all.threshold = eventThreshold(motion, body, settings);
   all.restTime = restTimeOf(motion);
   for (const MotionSample& sample : motion.trajectory) {
     all.lowest.push_back(lowestVertex(sample, body.hull));

@@ -43,7 +43,7 @@ struct Evidence {
   const AuditSettings& settings;
   double depth = 0;            ///< h: what counts as touching, m
   double mass = 0;             ///< kg
-  double threshold = 0;        ///< of hearing, N s of excess impulse in a bin
+  double threshold = 0;        ///< of an event, N s of excess impulse in a bin
   double restTime = 0;         ///< from here on the body rests; infinite when it never does
   std::vector<double> lowest;  ///< height of the lowest vertex at each sample, m
   std::vector<Step> steps;     ///< one less than samples
@@ -58,7 +58,8 @@ struct Evidence {
   [[nodiscard]] double retiming(std::size_t index) const {
     return index < motion.contacts.size() ? motion.contacts[index].retiming : 1;
   }
-  /// Impulse above the share that quietly carries the weight (method, 2), N s; >= 0.
+  /// Impulse above the share that quietly carries the weight, or all of it by the paper's cut
+  /// (method, 2), N s; >= 0.
   [[nodiscard]] double excess(const Eigen::Vector3d& impulse, double duration) const;
   /// Mechanical energy at a sample with its velocities multiplied by `retiming`, J.
   [[nodiscard]] double energy(const MotionSample& sample, double retiming = 1) const;

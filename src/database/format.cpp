@@ -122,6 +122,7 @@ std::string differenceOf(const DatabaseIdentity& there, const DatabaseIdentity& 
         told("backend", backendName(there.backend), backendName(here.backend)),
         told("object", nameIn(there.object), nameIn(here.object)),
         told("surface", nameIn(there.surface), nameIn(here.surface)),
+        told("cut", cutName(cutOf(there.settings)), cutName(cutOf(here.settings))),
         settingsDifference(there.settings, here.settings), told("seed", there.seed, here.seed),
         told("number of simulations", there.allSimulations, here.allSimulations)}) {
     if (!text.empty()) return text;

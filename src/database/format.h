@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "body/body.h"
+#include "ifa/event_cut.h"
 #include "ifa/result.h"
 #include "model/event_record.h"
 
@@ -28,7 +29,7 @@ enum class Backend : std::uint32_t { kNative = 0, kOde = 1 };
 struct DatabaseSettings {
   double restitution = 0, friction = 0, rollingFriction = 0, spinningFriction = 0;
   double referenceImpulse = 0;    ///< J_ref, N s
-  double audibleShare = 0;        ///< of J_ref
+  double audibleShare = 0;        ///< of J_ref; 0: the paper's cut
   double mergeGap = 0;            ///< s
   double coneDegrees = 0;         ///< of the sampled velocities
   std::array<double, 2> speed{};  ///< sampled, m/s
@@ -36,6 +37,10 @@ struct DatabaseSettings {
   double timeLimit = 0;           ///< of a simulation, s
   double odeStep = 0;             ///< s; 0: native
 };
+/// What its events are.
+[[nodiscard]] constexpr EventCut cutOf(const DatabaseSettings& settings) {
+  return settings.audibleShare > 0 ? EventCut::kAudible : EventCut::kPaper;
+}
 inline constexpr std::size_t kSettings = sizeof(DatabaseSettings) / sizeof(double);
 
 /// The columns: first what EventRecord's floats are, in its order, then flags and the table of

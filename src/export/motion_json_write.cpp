@@ -76,6 +76,9 @@ void appendHeader(Text& out, const Motion& motion) {
   out.raw("{\"format\": \"inverse-foley-motion\", \"version\": 1,\n ");
   out.field("program", motion.program).field("seed", motion.seed);
   out.field("planner", motion.planner, ",\n ");
+  if (motion.cut != EventCut::kAudible) {
+    out.field("cut", std::string(cutName(motion.cut)), ",\n ");
+  }
   out.key("object").raw("{").field("name", motion.object.name).field("mesh", motion.object.mesh);
   out.field("surface", motion.object.surface).field("mass", motion.object.mass);
   out.field("restitution", motion.object.restitution);

@@ -224,6 +224,7 @@ Result<Motion> buildMotion(const PlanRequest& request, const Plan& plan, double 
   motion.score = plan.score;
   motion.scoreWithoutSound = plan.scoreWithoutSound;
   motion.meanFv = plan.meanFv;
+  motion.cut = plan.cut;
   motion.bend = {plan.bendMedian, plan.bendMax, plan.bendCap};
   if (plan.contacts.empty()) return motion;
   Builder builder(request, plan, motion);

@@ -44,7 +44,7 @@ class BlockSimulator {
   explicit BlockSimulator(const DatabaseRequest& request)
       : request_(request),
         model_(*request.body, request.surface),
-        cut_(audibleCut(*request.body, request.surface)) {}
+        cut_(recorderFor(request.cut, *request.body, request.surface)) {}
 
   [[nodiscard]] EventBlock simulate(std::uint64_t first, std::uint64_t count) const {
     EventBlock block;
@@ -176,7 +176,7 @@ DatabaseIdentity identityOf(const DatabaseRequest& request) {
                        surface.rollingFriction,
                        surface.spinningFriction,
                        surface.referenceImpulse,
-                       kAudibleShare,
+                       request.cut == EventCut::kPaper ? 0 : kAudibleShare,
                        request.body->definition.mergeGap,
                        sampling.coneDegrees,
                        sampling.speed,

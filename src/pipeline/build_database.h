@@ -18,6 +18,7 @@ struct DatabaseRequest {
   std::uint64_t simulations = 0;  ///< of the whole database, > 0
   std::uint64_t seed = 1;
   Backend backend = Backend::kNative;
+  EventCut cut = EventCut::kAudible;
   std::uint64_t shard = 1, shards = 1;  ///< this build makes number `shard` (from 1) of `shards`
   bool resume = false;  ///< go on with what an interrupted build left, if it left anything
   bool wait = false;    ///< until another process that makes the same file is done

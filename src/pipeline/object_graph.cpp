@@ -10,12 +10,13 @@ namespace fs = std::filesystem;
 namespace {
 
 DatabaseRequest requestOf(const Body& body, const SurfaceProperties& surface,
-                          const std::string& surfaceName, std::uint64_t simulations) {
+                          const std::string& surfaceName, const GraphOptions& options) {
   DatabaseRequest request;
   request.body = &body;
   request.surface = surface;
   request.surfaceName = surfaceName;
-  request.simulations = simulations;
+  request.simulations = options.simulations;
+  request.cut = options.cut.value_or(EventCut::kAudible);
   request.resume = request.wait = true;
   return request;
 }
@@ -36,13 +37,15 @@ Result<void> ensureCached(const DatabaseRequest& request, const fs::path& path,
 }
 
 /// What is planned from a database is simulated again, so body, surface and simulation must be the
-/// same; seed and size need not.
-Result<EventDatabase> openFor(const DatabaseRequest& request, const fs::path& path) {
+/// same; seed and size need not, nor the cut of its events where none is asked for.
+Result<EventDatabase> openFor(DatabaseRequest request, const std::optional<EventCut>& cut,
+                              const fs::path& path) {
   auto database = EventDatabase::open(path);
   if (!database) return database;
   if (auto same = database->checkBody(*request.body); !same) return tl::unexpected(same.error());
-  DatabaseIdentity wanted = identityOf(request);
   const DatabaseIdentity& there = database->header().identity;
+  request.cut = cut.value_or(cutOf(there.settings));
+  DatabaseIdentity wanted = identityOf(request);
   wanted.seed = there.seed;
   wanted.allSimulations = there.allSimulations;
   if (auto same = database->checkIdentity(wanted); !same) return tl::unexpected(same.error());
@@ -63,14 +66,15 @@ fs::path GraphShelf::pathOf(const DatabaseRequest& request) const {
   return options_.database.empty() ? cachedDatabasePath(identityOf(request)) : options_.database;
 }
 
-Result<EventDatabase> GraphShelf::openAt(const DatabaseRequest& request, const fs::path& path,
+Result<EventDatabase> GraphShelf::openAt(const DatabaseRequest& request,
+                                         const std::optional<EventCut>& cut, const fs::path& path,
                                          const Progress& progress) const {
   if (options_.database.empty()) {
     if (auto there = ensureCached(request, path, progress); !there) {
       return tl::unexpected(there.error());
     }
   }
-  return openFor(request, path);
+  return openFor(request, cut, path);
 }
 
 Result<std::shared_ptr<const ContactGraph>> GraphShelf::get(const Body& body,
@@ -78,11 +82,11 @@ Result<std::shared_ptr<const ContactGraph>> GraphShelf::get(const Body& body,
                                                             const std::string& surfaceName,
                                                             const Progress& progress) {
   const std::lock_guard lock(mutex_);
-  const DatabaseRequest request = requestOf(body, surface, surfaceName, options_.simulations);
+  const DatabaseRequest request = requestOf(body, surface, surfaceName, options_);
   const fs::path path = pathOf(request);
   if (graph_ && path == path_) return graph_;
   graph_.reset();
-  auto database = openAt(request, path, progress);
+  auto database = openAt(request, options_.cut, path, progress);
   if (!database) return tl::unexpected(database.error());
   auto graph = ContactGraph::make(std::move(*database), body, graphSettings(), progress);
   if (!graph) return tl::unexpected(graph.error());
@@ -94,8 +98,10 @@ Result<std::shared_ptr<const ContactGraph>> GraphShelf::get(const Body& body,
 Result<EventDatabase> GraphShelf::database(const Body& body, const SurfaceProperties& surface,
                                            const std::string& surfaceName,
                                            const Progress& progress) const {
-  const DatabaseRequest request = requestOf(body, surface, surfaceName, kHybridSimulations);
-  return openAt(request, pathOf(request), progress);
+  DatabaseRequest request = requestOf(body, surface, surfaceName, options_);
+  request.simulations = kHybridSimulations;
+  request.cut = EventCut::kAudible;
+  return openAt(request, request.cut, pathOf(request), progress);
 }
 
 }  // namespace ifa

@@ -27,8 +27,8 @@ class GraphShelf {
       : options_(std::move(options)), energyGain_(energyGain) {}
 
   /// @param surface  with its J_ref
-  /// Errors: kBadInput for a database of another body, surface or version, kInterrupted; those of
-  /// buildDatabase.
+  /// Errors: kBadInput for a database of another body, surface, version or cut, kInterrupted; those
+  /// of buildDatabase.
   [[nodiscard]] Result<std::shared_ptr<const ContactGraph>> get(const Body& body,
                                                                 const SurfaceProperties& surface,
                                                                 const std::string& surfaceName,
@@ -43,6 +43,7 @@ class GraphShelf {
  private:
   [[nodiscard]] std::filesystem::path pathOf(const DatabaseRequest& request) const;
   [[nodiscard]] Result<EventDatabase> openAt(const DatabaseRequest& request,
+                                             const std::optional<EventCut>& cut,
                                              const std::filesystem::path& path,
                                              const Progress& progress) const;
   [[nodiscard]] GraphSettings graphSettings() const;

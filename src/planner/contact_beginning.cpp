@@ -44,7 +44,7 @@ bool canBegin(const BodyModel& model, const RecorderSettings& recorder,
   const double impulse =
       model.mass * std::max((beginning.first - arrivalVelocity).norm(),
                             (beginning.afterBin + fallen - arrivalVelocity).norm());
-  return impulse - 2 * recorder.weight * kBin > recorder.threshold;
+  return recorder.counts(recorder.excess(impulse, kBin));
 }
 
 }  // namespace ifa

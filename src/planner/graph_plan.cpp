@@ -19,6 +19,7 @@ class PlanMaker {
     for (int level = 0; level < path_.last(); ++level) follow(level);
     sumUp(plan_, log_);
     plan_.bendCap = largestBend();
+    plan_.cut = cutOf(graph_.database().header().identity.settings);
     return std::move(plan_);
   }
 

@@ -22,7 +22,8 @@ PlanarTransform shiftTo(const RigidState& state) {
 PathConnector::PathConnector(const PlanRequest& request)
     : graph_(*request.graph),
       model_(*request.body, request.surface),
-      recorder_(audibleCut(*request.body, request.surface)),
+      recorder_(recorderFor(cutOf(graph_.database().header().identity.settings), *request.body,
+                            request.surface)),
       chain_(model_, recorder_) {
   if (graph_.settings().connection == ConnectionKind::kBlend) {
     connection_ = ConnectionSettings::printed();

@@ -85,7 +85,8 @@ struct Plan {
   std::string failure;  ///< which contact fails, why, and what would help; empty when solved
   bool timeLimitReached = false;
   double secondsToGoodScore = -1;  ///< "graph": until kGoodScore was reached; negative: it was not
-  double bendCap = 2;              ///< what the planner kept all bends under
+  EventCut cut = EventCut::kAudible;  ///< what its contacts are
+  double bendCap = 2;                 ///< what the planner kept all bends under
   double score = 0, scoreWithoutSound = 0, meanFv = 0, bendMedian = 0, bendMax = 0;
   std::vector<PlannedContact> contacts;
 };

@@ -43,12 +43,20 @@ RecorderSettings audibleCut(const Body& body, const SurfaceProperties& surface) 
 
 std::vector<ContactEvent> eventsOf(const DropResult& drop, const RecorderSettings& settings) {
   EventRecorder recorder(settings);
-  for (const ContactStep& step : drop.steps) recorder.add(step);
+  for (const ContactStep& step : drop.steps) {
+    // A simulator that waits to see whether the body rests has steps of that, too.
+    if (!settings.audible && drop.atRest && step.time >= drop.restTime) break;
+    recorder.add(step);
+  }
   return recorder.finish(drop.atRest);
 }
 
 RecorderSettings paperCut(const Body& body) {
   return {body.definition.mergeGap, body.mass * kGravity, 0, false};
+}
+
+RecorderSettings recorderFor(EventCut cut, const Body& body, const SurfaceProperties& surface) {
+  return cut == EventCut::kPaper ? paperCut(body) : audibleCut(body, surface);
 }
 
 double kineticSpeed(const Body& body, const RigidState& state) {

@@ -9,6 +9,7 @@
 
 #include "body/body.h"
 #include "dynamics/simulator.h"
+#include "ifa/event_cut.h"
 #include "model/contact_event.h"
 #include "sampler/event_recorder.h"
 
@@ -16,11 +17,15 @@ namespace ifa {
 
 /// How the audible events of `body` on `surface` are found; J_ref is the surface's.
 [[nodiscard]] RecorderSettings audibleCut(const Body& body, const SurfaceProperties& surface);
-/// All events of a drop.
+/// All events of a drop. By the paper's cut the last one ends where the drop came to rest: the
+/// resting contact is clipped (IFA section 4).
 [[nodiscard]] std::vector<ContactEvent> eventsOf(const DropResult& drop,
                                                  const RecorderSettings& settings);
 /// The paper's own cut: any impulse above zero.
 [[nodiscard]] RecorderSettings paperCut(const Body& body);
+/// The one or the other.
+[[nodiscard]] RecorderSettings recorderFor(EventCut cut, const Body& body,
+                                           const SurfaceProperties& surface);
 
 /// sqrt(2 E / m) with the kinetic energy E of translation and spin, m/s.
 [[nodiscard]] double kineticSpeed(const Body& body, const RigidState& state);

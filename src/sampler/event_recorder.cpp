@@ -14,18 +14,21 @@ constexpr double kBin = 1e-3;
 constexpr double kInstant = 1e-9;
 
 double excess(const ContactStep& bin, const RecorderSettings& settings) {
-  const double impulse = bin.impulse.norm();
-  if (!settings.audible) return impulse;
-  return std::max(0.0, impulse - 2 * settings.weight * std::max(kBin, bin.duration));
+  return settings.excess(bin.impulse.norm(), bin.duration);
 }
 
 }  // namespace
+
+double RecorderSettings::excess(double impulse, double duration) const {
+  if (!audible) return impulse;
+  return std::max(0.0, impulse - 2 * weight * std::max(kBin, duration));
+}
 
 void EventRecorder::add(const ContactStep& step) {
   if (open_) {
     const bool over = step.time >= bin_.time + kBin - kInstant;
     // An impact begins a bin of its own, so that an event starts exactly where it is heard.
-    const bool fresh = step.duration <= 0 && heard() <= settings_.threshold;
+    const bool fresh = step.duration <= 0 && !settings_.counts(heard());
     if (over || fresh) closeBin();
   }
   if (!open_) {
@@ -52,7 +55,7 @@ void EventRecorder::closeBin() {
   open_ = false;
   largest_ = std::max(largest_, bin_.impulse.norm());
   const double heard = this->heard();
-  if (heard <= (settings_.audible ? settings_.threshold : 0.0)) return;
+  if (!settings_.counts(heard)) return;
   if (events_.empty() || bin_.time - events_.back().end >= settings_.mergeGap) {
     ContactEvent event;
     event.start = bin_.time;

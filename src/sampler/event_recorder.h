@@ -16,6 +16,11 @@ struct RecorderSettings {
   double threshold = 0;     ///< N s; a bin whose excess is not above this is not heard
   /// Decision: events are audible events. False takes the paper's own cut, any impulse above zero.
   bool audible = true;
+
+  /// What counts of an impulse (N s) that took `duration` (s) or a bin of 1 ms; N s.
+  [[nodiscard]] double excess(double impulse, double duration) const;
+  /// Whether an event is made of an excess (N s).
+  [[nodiscard]] bool counts(double excess) const { return excess > (audible ? threshold : 0.0); }
 };
 
 /// Takes the steps of one simulation in order of time; ask for the events at the end.

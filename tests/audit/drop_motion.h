@@ -16,9 +16,11 @@ namespace ifa::test {
 /// Turns a drop into a motion by the contract's rules.
 class DropMotion {
  public:
-  DropMotion(const Body& body, const SurfaceProperties& surface, const DropResult& drop)
+  DropMotion(const Body& body, const SurfaceProperties& surface, const DropResult& drop,
+             EventCut cut)
       : body_(body) {
-    const auto events = eventsOf(drop, audibleCut(body, surface));
+    const auto events = eventsOf(drop, recorderFor(cut, body, surface));
+    motion.cut = cut;
     listContacts(events);
     record(drop.steps.front().time, drop.steps.front().before);
     for (const ContactStep& step : drop.steps) {
@@ -95,10 +97,11 @@ class DropMotion {
 };
 
 /// Drop number `index` of `body` on its default surface.
-inline Motion makeDropMotion(const Body& body, std::uint64_t index) {
+inline Motion makeDropMotion(const Body& body, std::uint64_t index,
+                             EventCut cut = EventCut::kAudible) {
   const auto& surface = body.definition.surfaces.at(body.definition.defaultSurface);
   const auto drop = simulateDrop(body, surface, sampleInitialState(body, 7, index), 20);
-  return DropMotion(body, surface, drop).motion;
+  return DropMotion(body, surface, drop, cut).motion;
 }
 
 }  // namespace ifa::test

@@ -61,6 +61,15 @@ TEST_F(DatabaseCommand, BuildsAndTellsWhatIsInTheFile) {
   EXPECT_THAT(folder_.names(), ElementsAre("d"));
 }
 
+TEST_F(DatabaseCommand, TellsByWhichCutItWasMade) {
+  ASSERT_EQ(runProgram(build("d", {"--cut", "paper"})).exit, 0);
+  EXPECT_NE(readText(folder_ / "d"), whole());
+  EXPECT_THAT(runProgram({"database", "info", at("d")}).out,
+              HasSubstr("  cut             paper\n"));
+  EXPECT_THAT(runProgram({"database", "info", at("whole")}).out,
+              HasSubstr("  cut             audible\n"));
+}
+
 TEST_F(DatabaseCommand, ShardsMergeToTheFileOfOneBuild) {
   std::vector<std::string> merge = {"database", "merge", "-o", at("merged")};
   for (const std::string shard : {"3/3", "1/3", "2/3"}) {

@@ -71,6 +71,8 @@ INSTANTIATE_TEST_SUITE_P(
                                  "0"},
         std::vector<std::string>{"sync", "a.wav", "--object", "d6", "-o", "out", "--connection",
                                  "slerp"},
+        std::vector<std::string>{"sync", "a.wav", "--object", "d6", "-o", "out", "--cut", "loud"},
+        std::vector<std::string>{"database", "build", "d6", "-n", "5", "--cut", "loud"},
         std::vector<std::string>{"--threads", "0", "sync", "a.wav", "--object", "d6", "-o",
                                  "out"}));
 

@@ -176,6 +176,33 @@ TEST_F(BuildDatabaseTest, TheOtherEngineMakesAFileOfItsOwn) {
   EXPECT_GT(flights, 50U);
 }
 
+/// Any impulse counts: an event lasts until nothing touches for a merge gap, or the body rests.
+TEST_F(BuildDatabaseTest, ThePapersCutIsAnotherDatabase) {
+  const std::string audible = built(folder_ / "audible");
+  request_.cut = EventCut::kPaper;
+  EXPECT_NE(built(folder_ / "paper"), audible);
+  const auto database = EventDatabase::open(folder_ / "paper");
+  ASSERT_TRUE(database);
+  EXPECT_EQ(cutOf(database->header().identity.settings), EventCut::kPaper);
+  EXPECT_EQ(cutOf(EventDatabase::open(folder_ / "audible")->header().identity.settings),
+            EventCut::kAudible);
+  std::size_t followed = 0, terminal = 0;
+  for (std::size_t i = 0; i < database->events(); ++i) {
+    const EventRecord record = database->record(i);
+    terminal += record.has(EventRecord::kTerminal) ? 1 : 0;
+    if (!record.has(EventRecord::kFollowed)) continue;
+    ++followed;
+    EXPECT_GE(record.gap, static_cast<float>(die_.definition.mergeGap));
+    EXPECT_FALSE(record.has(EventRecord::kSilentPassage));
+  }
+  EXPECT_EQ(terminal, 700U);
+  EXPECT_GT(followed, 2 * terminal);
+  interrupt(folder_ / "d");
+  request_.cut = EventCut::kAudible;
+  request_.resume = true;
+  EXPECT_THAT(refusal(folder_ / "d"), HasSubstr("cut paper there, audible here"));
+}
+
 TEST_F(BuildDatabaseTest, TheCacheTellsDatabasesApart) {
   std::vector<fs::path> paths = {cachedDatabasePath(identityOf(request_))};
   EXPECT_EQ(cachedDatabasePath(identityOf(request_)), paths[0]);
@@ -189,6 +216,7 @@ TEST_F(BuildDatabaseTest, TheCacheTellsDatabasesApart) {
   differs([&] { request_.simulations = 701; });
   differs([&] { request_.surface.friction = 0.4; });
   differs([&] { request_.backend = Backend::kOde; });
+  differs([&] { request_.cut = EventCut::kPaper; });
   differs([&] { die_.mass *= 2; });
   std::sort(paths.begin(), paths.end());
   EXPECT_EQ(std::unique(paths.begin(), paths.end()), paths.end());

@@ -25,13 +25,14 @@ class ObjectGraph : public testing::Test {
   static SurfaceProperties surfaceOf(const Body& body) {
     return body.definition.surfaces.at(body.definition.defaultSurface);
   }
-  void build(const SurfaceProperties& surface) {
+  void build(const SurfaceProperties& surface, EventCut cut = EventCut::kAudible) {
     DatabaseRequest request;
     request.body = &eraser_;
     request.surface = surface;
     request.surfaceName = eraser_.definition.defaultSurface;
     request.simulations = 20;
     request.seed = 5;
+    request.cut = cut;
     fs::remove(options_.database);
     ASSERT_TRUE(buildDatabase(request, options_.database, {}));
   }
@@ -78,6 +79,26 @@ TEST_F(ObjectGraph, IsNotMadeOfAnotherSurface) {
   ASSERT_FALSE(graph);
   EXPECT_EQ(graph.error().code, ErrorCode::kBadInput);
   EXPECT_THAT(graph.error().text(), HasSubstr("restitution"));
+}
+
+TEST_F(ObjectGraph, IsOfTheDatabasesCutUnlessAnotherIsAskedFor) {
+  for (const EventCut cut : {EventCut::kAudible, EventCut::kPaper}) {
+    build(surfaceOf(eraser_), cut);
+    options_.cut.reset();
+    GraphShelf any(options_, 0);
+    const auto graph = get(any, eraser_);
+    ASSERT_TRUE(graph) << graph.error().text();
+    EXPECT_EQ(cutOf((*graph)->database().header().identity.settings), cut);
+    options_.cut = cut;
+    GraphShelf same(options_, 0);
+    EXPECT_TRUE(get(same, eraser_));
+    options_.cut = cut == EventCut::kPaper ? EventCut::kAudible : EventCut::kPaper;
+    GraphShelf other(options_, 0);
+    const auto refused = get(other, eraser_);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::kBadInput);
+    EXPECT_THAT(refused.error().text(), HasSubstr("cut " + std::string(cutName(cut)) + " there"));
+  }
 }
 
 TEST_F(ObjectGraph, NeedsItsFile) {

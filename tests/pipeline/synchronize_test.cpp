@@ -89,6 +89,20 @@ TEST_F(SynchronizeByGraph, MakesTheDatabaseThatIsMissing) {
   EXPECT_EQ(motion.database->hash.size(), 16U);
 }
 
+TEST_F(SynchronizeByGraph, TakesThePapersCut) {
+  const auto audible = synchronize(settings_);
+  settings_.graph.cut = EventCut::kPaper;
+  settings_.graph.timeWarp = settings_.graph.printedVelocity = true;
+  const auto result = synchronize(settings_);
+  ASSERT_TRUE(result) << result.error().text();
+  const Motion& motion = result->takes.front();
+  EXPECT_TRUE(motion.success) << motion.failure;  // its audit holds
+  EXPECT_EQ(motion.cut, EventCut::kPaper);
+  ASSERT_TRUE(audible && motion.database);
+  EXPECT_EQ(audible->takes.front().cut, EventCut::kAudible);
+  EXPECT_NE(motion.database->hash, audible->takes.front().database->hash);
+}
+
 TEST_F(SynchronizeByGraph, ShowsBlendsAtAnotherPace) {
   test::writeText(settings_.sound, R"({"format": "inverse-foley-signature", "version": 1,
   "terminal": false, "events": [

@@ -17,9 +17,12 @@ namespace ifa::test {
 namespace {
 
 /// Enough drops for most signatures to be met.
-const DropDatabase& drops() {
-  static const DropDatabase drops(graphDie(), graphDieSurface(), 5000, 21);
-  return drops;
+const DropDatabase& drops(EventCut cut) {
+  const auto make = [](EventCut kind) {
+    return DropDatabase(graphDie(), graphDieSurface(), 5000, 21, kind);
+  };
+  static const DropDatabase audible = make(EventCut::kAudible), paper = make(EventCut::kPaper);
+  return cut == EventCut::kPaper ? paper : audible;
 }
 
 struct Kind {
@@ -27,6 +30,7 @@ struct Kind {
   ConnectionKind connection;
   VelocityReference reference;
   int solved;  ///< no fewer of the signatures
+  EventCut cut = EventCut::kAudible;
 };
 
 struct Planned {
@@ -50,7 +54,8 @@ class GraphPlans : public testing::TestWithParam<Kind> {
     GraphSettings settings;
     settings.connection = GetParam().connection;
     settings.velocityReference = GetParam().reference;
-    World& made = all.emplace(GetParam().name, World{graphOf(drops(), graphDie(), settings), {}, 0})
+    World& made = all.emplace(GetParam().name,
+                              World{graphOf(drops(GetParam().cut), graphDie(), settings), {}, 0})
                       .first->second;
     for (std::size_t n = 4; n <= 8; ++n) {
       for (const bool terminal : {false, true}) {
@@ -81,6 +86,7 @@ TEST_P(GraphPlans, MeetManySignaturesOfDropsAndHoldTheAudit) {
     for (std::size_t i = 0; i < one.motion.contacts.size(); ++i)
       EXPECT_NEAR(one.motion.contacts[i].time, one.request.signature.events[i].time, 1e-12);
     EXPECT_EQ(one.motion.contacts.back().terminal, one.request.signature.terminal);
+    EXPECT_EQ(one.motion.cut, GetParam().cut);
   }
 }
 
@@ -271,7 +277,11 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Kind{"Exact", ConnectionKind::kExact, VelocityReference::kBlend, 8},
                     Kind{"ExactPrinted", ConnectionKind::kExact, VelocityReference::kPrinted, 7},
                     Kind{"Blend", ConnectionKind::kBlend, VelocityReference::kBlend, 10},
-                    Kind{"BlendPrinted", ConnectionKind::kBlend, VelocityReference::kPrinted, 10}),
+                    Kind{"BlendPrinted", ConnectionKind::kBlend, VelocityReference::kPrinted, 10},
+                    Kind{"PapersCut", ConnectionKind::kBlend, VelocityReference::kPrinted, 8,
+                         EventCut::kPaper},
+                    Kind{"PapersCutExact", ConnectionKind::kExact, VelocityReference::kBlend, 6,
+                         EventCut::kPaper}),
     [](const auto& kind) { return std::string(kind.param.name); });
 
 }  // namespace

@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "base/parallel.h"
+#include "dynamics/simulator.h"
+#include "sampler/initial_state.h"
 #include "support/box_body.h"
 
 namespace ifa {
@@ -52,6 +56,49 @@ TEST(DropStatistics, TimeToRestIsTheEndOfTheLastFastContact) {
   EXPECT_DOUBLE_EQ(timeToRest(die, steps), 0.401);
   EXPECT_DOUBLE_EQ(timeToRest(die, steps, 0.03), 0.5);
   EXPECT_DOUBLE_EQ(timeToRest(die, {}), 0);
+}
+
+/// The resting contact is clipped, however long a simulator waits to be sure of it.
+TEST(DropStatistics, ThePapersCutEndsWhereTheBodyRests) {
+  const Body die = makeDieBody();
+  DropResult drop;
+  drop.steps = {stepAt(0, 1, 0.02)};
+  for (int i = 0; i < 40; ++i) {
+    drop.steps.push_back(stepAt(0.5 + i * 1e-3, 0.01, 1e-5));
+    drop.steps.back().duration = 1e-3;
+  }
+  drop.restTime = 0.510;
+  const auto ends = [&](bool atRest) {
+    drop.atRest = atRest;
+    const auto events = eventsOf(drop, recorderFor(EventCut::kPaper, die, {}));
+    EXPECT_EQ(events.size(), 2U);
+    EXPECT_EQ(events.back().terminal, atRest);
+    return events.back().end;
+  };
+  EXPECT_NEAR(ends(true), 0.510, 1e-9);
+  EXPECT_NEAR(ends(false), 0.540, 1e-9);
+}
+
+/// What is heard lies within contacts by the paper's cut.
+TEST(DropStatistics, ThePapersCutHoldsTheAudibleOne) {
+  const Body die = makeDieBody();
+  SurfaceProperties surface;
+  surface.restitution = 0.6;
+  surface.referenceImpulse = 0.0147;
+  std::size_t audible = 0, paper = 0;
+  for (std::uint64_t i = 0; i < 30; ++i) {
+    const DropResult drop = simulateDrop(die, surface, sampleInitialState(die, 3, i), 20);
+    const auto outer = eventsOf(drop, recorderFor(EventCut::kPaper, die, surface));
+    for (const auto& inner : eventsOf(drop, recorderFor(EventCut::kAudible, die, surface))) {
+      EXPECT_TRUE(std::any_of(outer.begin(), outer.end(), [&](const ContactEvent& event) {
+        return event.start <= inner.start + 1e-9 && event.end >= inner.end - 1e-9;
+      }));
+      ++audible;
+    }
+    paper += outer.size();
+    EXPECT_NEAR(outer.back().end, drop.restTime, 1e-9);
+  }
+  EXPECT_NE(paper, audible);
 }
 
 TEST(DropStatistics, GathersTheSameOnAnyNumberOfThreads) {

@@ -33,15 +33,16 @@ class DropDatabase {
   DropDatabase(const Body& body, std::uint64_t drops, std::uint64_t seed)
       : DropDatabase(body, graphSurface(body), drops, seed) {}
   DropDatabase(const Body& body, const SurfaceProperties& surface, std::uint64_t drops,
-               std::uint64_t seed) {
+               std::uint64_t seed, EventCut kind = EventCut::kAudible) {
     const BodyModel model(body, surface);
-    const RecorderSettings cut = audibleCut(body, surface);
+    const RecorderSettings cut = recorderFor(kind, body, surface);
     DatabaseHeader header;
     header.identity.simulationVersion = kSimulationVersion;
     header.identity.seed = seed;
     header.identity.allSimulations = header.simulations = drops;
     header.identity.bodyHash = hashOf(body);
     header.identity.settings.mergeGap = cut.mergeGap;
+    header.identity.settings.audibleShare = kind == EventCut::kPaper ? 0 : kAudibleShare;
     header.identity.settings.referenceImpulse = surface.referenceImpulse;
     header.identity.settingsHash = hashOf(header.identity.settings);
     EventBlock block;
