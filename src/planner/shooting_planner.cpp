@@ -149,6 +149,7 @@ class Takes {
     return plans_.size() >= static_cast<std::size_t>(problem_.request.settings.takes);
   }
   [[nodiscard]] std::vector<Plan>& plans() { return plans_; }
+  [[nodiscard]] bool refused() const { return refused_ > 0; }
 
  private:
   /// Those of earlier passes have been.
@@ -173,6 +174,10 @@ class Takes {
 Result<std::vector<Plan>> ShootingPlanner::plan(const PlanRequest& request,
                                                 const Progress& progress) const {
   if (const auto good = checkRequest(request); !good) return tl::unexpected(good.error());
+  if (settings_.aimedEvents > 0 && request.database == nullptr) {
+    return tl::unexpected<Error>({ErrorCode::kUsage, "the hybrid planner needs an event database",
+                                  "--database", "build one with ifa database build"});
+  }
   const auto begin = Clock::now();
   const double limit = request.settings.timeLimitSeconds;
   const auto late = [&] {
@@ -203,7 +208,8 @@ Result<std::vector<Plan>> ShootingPlanner::plan(const PlanRequest& request,
           hard[static_cast<std::size_t>(std::max(0, farthest->level - k))] = true;
         }
       }
-      plan.failure = failureOf(problem, search, farthest);
+      plan.failure = takes.refused() ? "no motion that was found holds its audit"
+                                     : failureOf(problem, search, farthest);
       partial.push_back(std::move(plan));
       // Other seeds meet the second contact no better; what can be done there does not depend on
       // luck.

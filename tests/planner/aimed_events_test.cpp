@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <limits>
 
 #include "body/symmetry.h"
+#include "graph/edge_weight.h"
 #include "planner/bodies.h"
 #include "support/drop_database.h"
 
@@ -25,7 +27,7 @@ struct Passage {
 
 class AimedAt : public testing::Test {
  protected:
-  AimedAt() : body_(test::makeDieBody()), drops_(body_, 60, 3), database_(drops_.open()) {
+  AimedAt() : body_(makeDieBody()), drops_(body_, 60, 3), database_(drops_.open()) {
     for (std::uint32_t i = 0; i + 1 < database_.events(); ++i) {
       all_.push_back({i, 0});
       const EventRecord from = database_.record(i);
