@@ -121,11 +121,13 @@ class Timing {
     state.q = end.q;
     state.w = end.w;
     flight.arrival = rigidState(state);
-    for (int axis = 0; axis < 2; ++axis) {
-      const Vec<double> lever =
-          aimed(vec(spin) * duration_, {axis == 0 ? duration_ : 0, axis == 1 ? duration_ : 0, 0});
-      flight.tilting.row(axis) =
-          region_.angularAxes().transpose() * Vector3d(lever.x, lever.y, lever.z);
+    // Small enough for first order, large enough for rounding.
+    constexpr double kStep = 1e-4;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vector3d nudged = spin + kStep * region_.angularAxes().col(axis);
+      const Vec<double> up = turned(nudged).up();
+      flight.tilting.col(axis) =
+          tiltTo(flight.arrival.orientation, Vector3d(up.x, up.y, up.z)).head<2>() / kStep;
     }
     return flight;
   }

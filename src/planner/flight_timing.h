@@ -34,7 +34,7 @@ struct TimedFlight {
 struct AimingFlight {
   RigidState arrival;  ///< orientation and spin; position and velocity are the departure's
   /// Tilt of the arrival about the world's x and y axes by the three angular coordinates of the
-  /// plausible region, to first order, rad.
+  /// plausible region, rad for each: by differences.
   Eigen::Matrix<double, 2, 3> tilting;
 };
 [[nodiscard]] AimingFlight aimingFlight(const BodyModel& model, const RigidState& after,

@@ -12,6 +12,9 @@ namespace ifa {
 namespace {
 
 constexpr double kLongestEvent = 20;  // s
+// Decision: rad, of a printed connection. Where the flight ends the pose jumps by that, and with it
+// the angular momentum of a long body by several times as much; the audit allows 1e-6 of it.
+constexpr double kPoseMissed = 1e-7;
 
 PlanarTransform shiftTo(const RigidState& state) {
   return {1, 0, state.position.x(), state.position.y()};
@@ -27,6 +30,7 @@ PathConnector::PathConnector(const PlanRequest& request)
       chain_(model_, recorder_) {
   if (graph_.settings().connection == ConnectionKind::kBlend) {
     connection_ = ConnectionSettings::printed();
+    connection_.shooting.tolerance = kPoseMissed;
   }
   connection_.depth = request.body->tolerance();
 }

@@ -88,14 +88,14 @@ TEST_F(EventRhythms, OnlyWhatRestsEndsAMotion) {
 TEST_F(EventRhythms, AnotherGapCostsMore) {
   for (const auto& [signature, first] : cases(3, false)) {
     ContactSignature late = signature;
-    for (std::size_t k = 1; k < 3; ++k) late.events[k].time += 0.01;
+    for (std::size_t k = 1; k < 3; ++k) late.events[k].time += 0.02;
     const auto costOf = [&, at = first](const ContactSignature& what) {
       for (const RhythmMatch& match : eventsInRhythm(database(), what, 0, database().events())) {
         if (match.event == at) return match.cost;
       }
       return -1.0;
     };
-    EXPECT_GT(costOf(late), costOf(signature) + 0.1);
+    EXPECT_GT(costOf(late), costOf(signature) + 0.05);
   }
 }
 

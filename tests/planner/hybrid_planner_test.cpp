@@ -85,9 +85,9 @@ void expectSoundTransitions(const PlanRequest& request, const Plan& plan) {
     if (next.arrival != Arrival::kFlight) continue;
     const auto touch = firstTouch(model, departure, 10);
     ASSERT_TRUE(touch.has_value());
-    EXPECT_EQ(touch->state.position, next.event.before.position);
+    EXPECT_LT((touch->state.position - next.event.before.position).norm(), 1e-9);
     EXPECT_LT((touch->state.velocity + next.arrivalChange - next.event.before.velocity).norm(),
-              1e-12);
+              1e-9);
   }
 }
 
@@ -111,8 +111,7 @@ TEST_F(HybridPlanner, SolvesDropsWithSoundTransitions) {
 /// With nothing but transitions to choose from, what is taken is a transition.
 TEST_F(HybridPlanner, ClosesWithATerminalEvent) {
   ShootingPlannerSettings settings = smallHybrid();
-  settings.children = 1;
-  settings.lastFactor = 1;
+  settings.children = 0;
   settings.aimedTries = 8;
   settings.aimedCost = 20;
   int endings = 0;
