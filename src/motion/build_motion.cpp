@@ -213,6 +213,7 @@ class Builder {
 Result<Motion> buildMotion(const PlanRequest& request, const Plan& plan, double preRoll) {
   Motion motion;
   motion.object.name = request.body->definition.name;
+  motion.object.surface = request.surfaceName;
   motion.object.mass = request.body->mass;
   motion.object.restitution = request.surface.restitution;
   motion.object.friction = request.surface.friction;

@@ -123,17 +123,14 @@ std::string auditFailure(const Motion& motion, const Body& body) {
 // are the job's, which the plan does not know.
 bool holdsAudit(const PlanRequest& request, const Plan& plan) {
   const auto motion = buildMotion(request, plan, 0);
-  if (!motion) return false;
-  const auto report = audit(*motion, *request.body);
-  return std::all_of(report.checks.begin(), report.checks.end(), [](const AuditCheck& check) {
-    return check.passed || check.name == "object";
-  });
+  return motion && auditFailure(*motion, *request.body).empty();
 }
 
 PlanRequest makeRequest(const SynchronizeSettings& settings, const Job& job) {
   PlanRequest request;
   request.body = &job.body;
   request.surface = job.body.definition.surfaces.at(job.surface);
+  request.surfaceName = job.surface;
   request.signature = job.heard.signature;
   request.settings.seed = settings.seed;
   request.settings.takes = settings.takes;
@@ -192,7 +189,6 @@ Result<Motion> makeTake(const SynchronizeSettings& settings, const Job& job, con
   motion->program = programVersion();
   motion->seed = settings.seed;
   motion->planner = settings.planner;
-  motion->object.surface = job.surface;
   motion->object.mesh = copiedMeshName(job.body.definition);
   motion->searchSeconds = found.seconds;
   if (job.database) motion->database = referenceTo(*job.database);

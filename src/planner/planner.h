@@ -43,6 +43,7 @@ struct Plan;
 struct PlanRequest {
   const Body* body = nullptr;
   SurfaceProperties surface;
+  std::string surfaceName;  ///< for the motion file
   ContactSignature signature;
   PlannerSettings settings;
   std::optional<EnergyOutlook> outlook;     ///< of body and surface; learnt when not given
