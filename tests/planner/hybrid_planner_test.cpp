@@ -6,8 +6,10 @@
 
 #include "base/parallel.h"
 #include "dynamics/energy.h"
+#include "graph/edge_weight.h"
 #include "planner/bodies.h"
 #include "planner/flight_timing.h"
+#include "planner/graph_plan_cases.h"
 #include "planner/shooting_cases.h"
 #include "planner/shooting_planner.h"
 #include "support/drop_database.h"
@@ -108,22 +110,36 @@ TEST_F(HybridPlanner, SolvesDropsWithSoundTransitions) {
   RecordProperty("jumps", jumps);
 }
 
-/// With nothing but transitions to choose from, what is taken is a transition.
-TEST_F(HybridPlanner, ClosesWithATerminalEvent) {
+/// With nothing but transitions to choose from, the sound of events in a row leads from each to the
+/// next one, and the last one closes the path.
+TEST_F(HybridPlanner, TransitionsAloneRetraceADrop) {
   ShootingPlannerSettings settings = smallHybrid();
   settings.children = 0;
-  settings.aimedTries = 8;
-  settings.aimedCost = 20;
-  int endings = 0;
-  for (const ContactSignature& signature : test::signatures(test::die(), 8, 3, 5)) {
-    const PlanRequest asked = request(signature);
+  settings.firstContacts = 1;
+  settings.lateContacts = 0;
+  constexpr std::size_t kEvents = 3;
+  int tried = 0, retraced = 0;
+  RandomStream random(1, 1);
+  const ContactGraph graph = test::graphOf(*drops_, test::die());
+  for (std::size_t first = 0; first + kEvents <= database_->events() && tried < 8; ++first) {
+    const auto signature = test::signatureFrom(graph, first, kEvents, {0, 0}, random);
+    if (!signature || !signature->terminal || !isLeftByFlight(database_->flags(), first) ||
+        !isLeftByFlight(database_->flags(), first + 1)) {
+      continue;
+    }
+    ++tried;
+    const PlanRequest asked = request(*signature);
     const Plan plan = plans(asked, settings)[0];
     expectSoundTransitions(asked, plan);
     if (!plan.solved) continue;
-    EXPECT_TRUE(plan.contacts.back().event.terminal);
-    endings += plan.contacts.back().source.kind == SourceKind::kDatabase;
+    EXPECT_GT(plan.score, 0.8);
+    for (const PlannedContact& contact : plan.contacts) {
+      EXPECT_EQ(contact.source.kind, SourceKind::kDatabase);
+    }
+    retraced += plan.score > 0.97;
   }
-  EXPECT_GT(endings, 0);
+  EXPECT_GT(tried, 3);
+  EXPECT_GE(2 * retraced, tried);
 }
 
 TEST_F(HybridPlanner, SameWhateverTheThreads) {
