@@ -2,6 +2,7 @@
 // The interface of all planners: a signature and a body in, ranked and different plans out.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -43,7 +44,9 @@ struct PlanRequest {
   ContactSignature signature;
   PlannerSettings settings;
   std::optional<EnergyOutlook> outlook;  ///< of body and surface; learnt when not given
-  const ContactGraph* graph = nullptr;   ///< of body and surface; "graph" needs it
+  /// Maps of the body onto itself, principal frame, which make no other take; empty: the identity.
+  std::vector<Eigen::Matrix3d> symmetry;
+  const ContactGraph* graph = nullptr;  ///< of body and surface; "graph" needs it
 };
 
 /// One contact of a plan: the event as simulated, and the change of velocity that leads out of it.

@@ -134,7 +134,7 @@ class Takes {
     plans_.clear();
     for (Plan& plan : found) {
       const bool isNew = std::all_of(plans_.begin(), plans_.end(), [&](const Plan& other) {
-        return differentPaths(plan, other);
+        return differentTakes(plan, other, problem_.request.symmetry);
       });
       if (isNew && plans_.size() < wanted) plans_.push_back(std::move(plan));
     }
@@ -168,10 +168,12 @@ Result<std::vector<Plan>> ShootingPlanner::plan(const PlanRequest& request,
   const ShootingProblem problem(request, settings_);
   Takes takes(problem);
   std::vector<Plan> partial;
-  const int passes =
-      std::max(1, static_cast<int>(std::lround(settings_.passes * request.settings.effort)));
+  // A budget of less than one pass makes that pass narrower.
+  const double budget = settings_.passes * request.settings.effort;
+  const int passes = std::max(1, static_cast<int>(std::lround(budget)));
+  const double width = std::min(1.0, budget);
   for (int pass = 0; pass < passes && !stop(); ++pass) {
-    ShootingSearch search(problem, static_cast<std::uint64_t>(pass), 1 + 0.5 * pass);
+    ShootingSearch search(problem, static_cast<std::uint64_t>(pass), width + 0.5 * pass);
     search.run(stop, [&](double share) { progress("search", (pass + share) / passes); });
     takes.add(search);
     if (takes.plans().empty()) {
