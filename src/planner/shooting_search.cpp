@@ -2,6 +2,7 @@
 #include "planner/shooting_search.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -19,6 +20,27 @@ constexpr std::size_t kMostComplete = 64;
 constexpr double kNoBound = -1e300;
 
 bool better(const ShootingNode& a, const ShootingNode& b) { return a.worth() > b.worth(); }
+
+/// Keeps the best few complete motions, best first. Where several takes are wanted, no more than a
+/// take's share of one first contact, unless there is room: what differs late differs little.
+/// Returns what another one must be worth to be kept.
+double keepComplete(std::vector<ShootingNode>& done, int takes) {
+  std::stable_sort(done.begin(), done.end(), better);
+  const std::size_t ofOneRoot = kMostComplete / static_cast<std::size_t>(std::max(1, takes));
+  std::map<unsigned, std::size_t> ofRoot;
+  std::vector<ShootingNode> kept, more;
+  for (ShootingNode& node : done) {
+    (++ofRoot[node.root] <= ofOneRoot ? kept : more).push_back(std::move(node));
+  }
+  if (kept.size() > kMostComplete) kept.resize(kMostComplete);
+  const double bound = kept.size() == kMostComplete ? kept.back().worth() : kNoBound;
+  const std::size_t room = std::min(kMostComplete - kept.size(), more.size());
+  std::move(more.begin(), more.begin() + static_cast<std::ptrdiff_t>(room),
+            std::back_inserter(kept));
+  done = std::move(kept);
+  std::stable_sort(done.begin(), done.end(), better);
+  return bound;
+}
 
 }  // namespace
 
@@ -65,8 +87,7 @@ void ShootingSearch::run(const std::function<bool()>& stop,
   for (std::size_t level = 0; level < n && !stop(); ++level) {
     if (level + 1 == n) {
       complete_ = levels_[level];
-      std::stable_sort(complete_.begin(), complete_.end(), better);
-      if (complete_.size() > kMostComplete) complete_.resize(kMostComplete);
+      keepComplete(complete_, problem_.request.settings.takes);
       break;
     }
     keepBest(levels_[level]);
@@ -125,9 +146,7 @@ void ShootingSearch::expandLevel(std::size_t level, const std::function<bool()>&
       // Of complete motions only the best few matter; at other contacts rank decides later.
       if (last && levels_[next].size() > kMostComplete) {
         auto& done = levels_[next];
-        std::stable_sort(done.begin(), done.end(), better);
-        done.resize(kMostComplete);
-        bound = done.back().worth();
+        bound = keepComplete(done, problem_.request.settings.takes);
       }
     }
     if (events[next].weight >= 1) break;
