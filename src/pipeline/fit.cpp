@@ -19,7 +19,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kOff = 0.7;    ///< the right restitution over the given one, or inverse
 constexpr double kStep = 0.02;  ///< restitutions are multiples, so that caches serve again
-constexpr double kNear = 0.1, kBeyond = 0.1;  ///< relative, of a second restitution
+constexpr double kNear = 0.1, kBeside = 0.1;  ///< relative, of a second restitution
 constexpr double kEnough = 0.95;        ///< a first look with this Score is not followed by others
 constexpr std::size_t kWholePlans = 3;  ///< at most
 /// Work, in shares of what one plan may cost: all first looks together cost two passes, and
@@ -188,6 +188,14 @@ RestitutionRange fitRange(double given) {
   return {given * kOff, std::max(given * kOff, std::min(kMostRestitution, given / kOff))};
 }
 
+void changeRestitution(const SynchronizeSettings& settings, ObjectDefinition& object) {
+  if (!settings.restitution && settings.restitutionScale == 1) return;
+  for (auto& [name, surface] : object.surfaces) {
+    const double scaled = settings.restitutionScale * surface.restitution;
+    surface.restitution = settings.restitution.value_or(std::min(kMostRestitution, scaled));
+  }
+}
+
 std::vector<FitCandidate> fitCandidates(const FitRequest& request, const Progress& progress) {
   std::vector<FitCandidate> candidates;
   const SurfaceProperties& first = request.surfaces.at(request.first);
@@ -198,9 +206,11 @@ std::vector<FitCandidate> fitCandidates(const FitRequest& request, const Progres
   if (candidates.size() > 1) return candidates;
   const double given = first.restitution, guess = candidates[0].restitution;
   const bool near = std::abs(guess - given) <= kNear * given;
-  // The estimate is pulled towards the middle of what it was learnt from.
-  const double away = guess * (guess < given ? 1 - kBeyond : 1 + kBeyond);
-  const double second = near ? given : onGrid(away, fitRange(given));
+  // Beyond the estimate, which is pulled towards the middle of what it was learnt from; back from
+  // the end of the range.
+  const RestitutionRange range = fitRange(given);
+  const bool up = guess >= range.most ? false : guess <= range.least || guess > given;
+  const double second = near ? given : onGrid(guess * (up ? 1 + kBeside : 1 - kBeside), range);
   if (second != guess) candidates.push_back({request.first, second});
   return candidates;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/progress.h"
+#include "ifa/synchronize.h"
 #include "planner/planner.h"
 
 namespace ifa {
@@ -20,6 +21,9 @@ struct RestitutionRange {
 /// Decision: a restitution may be off by 30 % whichever of the two that share is taken of, so 0.7
 /// times the given one to it over 0.7; at most 0.95.
 [[nodiscard]] RestitutionRange fitRange(double given);
+
+/// Gives the object's surfaces the restitution that the settings name, or a share of theirs.
+void changeRestitution(const SynchronizeSettings& settings, ObjectDefinition& object);
 
 /// A surface on which a motion is looked for.
 struct FitCandidate {
@@ -47,8 +51,8 @@ struct Fit {
 };
 
 /// What is looked at first, likeliest first: what the rhythm sounds like on each surface; where
-/// there is only one, also its neighbour on the side away from the given restitution, or that
-/// itself where it is near.
+/// there is only one, also the given restitution if that is near, else a neighbour of the estimate,
+/// beyond it as seen from the given one where the range allows.
 [[nodiscard]] std::vector<FitCandidate> fitCandidates(const FitRequest& request,
                                                       const Progress& progress);
 

@@ -37,14 +37,6 @@ Result<Body> loadBody(const SynchronizeSettings& settings) {
   return loadObject(settings.object);
 }
 
-// What the user knows better than the object file.
-void changeRestitution(const SynchronizeSettings& settings, ObjectDefinition& object) {
-  for (auto& [name, surface] : object.surfaces) {
-    const double scaled = settings.restitutionScale * surface.restitution;
-    surface.restitution = settings.restitution.value_or(std::min(kMostRestitution, scaled));
-  }
-}
-
 Result<std::string> chooseSurface(const SynchronizeSettings& settings,
                                   const ObjectDefinition& object) {
   const auto& name = settings.surface.empty() ? object.defaultSurface : settings.surface;
@@ -72,9 +64,7 @@ Result<Job> prepare(const SynchronizeSettings& settings) {
   if (!planner) return tl::unexpected(planner.error());
   auto body = loadBody(settings);
   if (!body) return tl::unexpected(body.error());
-  if (settings.restitution || settings.restitutionScale != 1) {
-    changeRestitution(settings, body->definition);
-  }
+  changeRestitution(settings, body->definition);
   auto surface = chooseSurface(settings, body->definition);
   if (!surface) return tl::unexpected(surface.error());
   auto heard = hear(settings, body->definition.mergeGap);
