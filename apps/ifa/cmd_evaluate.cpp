@@ -68,6 +68,12 @@ void addOptions(CLI::App& command, EvaluateOptions& options) {
   command.add_option("--seed", settings.seed, "of the searches")->capture_default_str();
   command.add_option("--time-limit", settings.timeLimitSeconds, "seconds per case (0: none)")
       ->check(numberFrom(0, 1e6));
+  command
+      .add_option("--restitution-scale", settings.restitutionScale,
+                  "plan with so many times the objects' restitution, at most 0.95")
+      ->check(CLI::Range(0.1, 10.0))
+      ->capture_default_str();
+  command.add_flag("--fit", settings.fit, "look for the restitution that suits each sound");
   command.add_option("--jobs", settings.jobs, "cases at a time; wall times suffer")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();

@@ -45,16 +45,25 @@ Result<std::set<OutputFormat>> parseFormats(const std::string& list) {
   return formats;
 }
 
-int noMotion(CommandContext& context, const std::string& message, const fs::path& place) {
-  return context.fail({ErrorCode::kNoMotion, message, place.string(), {}});
+int noMotion(CommandContext& context, const std::string& message, const fs::path& place,
+             const std::string& remedy = {}) {
+  return context.fail({ErrorCode::kNoMotion, message, place.string(), remedy});
 }
 
 int interrupted(CommandContext& context, const std::string& kept) {
   return context.fail({ErrorCode::kInterrupted, "interrupted; " + kept, {}, {}});
 }
 
+std::string fitOf(const Motion& motion) {
+  if (!motion.given) return {};
+  const bool moved = motion.given->surface != motion.object.surface;
+  return fmt::format(", restitution {:.2f} ({:.2f} {}was given)", motion.object.restitution,
+                     motion.given->restitution, moved ? "on " + motion.given->surface + " " : "");
+}
+
 void showTake(Console& console, const Motion& motion, const fs::path& folder) {
-  console.result(fmt::format("{} on {}: {}", motion.object.name, motion.object.surface,
+  console.result(fmt::format("{} on {}{}: {}", motion.object.name, motion.object.surface,
+                             fitOf(motion),
                              motion.success ? describe(motion) : "no acceptable motion"));
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
@@ -78,7 +87,9 @@ int syncSound(const SyncOptions& options, CommandContext& context) {
   }
   if (result->interrupted) return interrupted(context, "what was found is kept");
   if (!takes.front().success) {
-    return noMotion(context, takes.front().failure, options.settings.sound);
+    const bool canFit = !options.settings.fit && options.settings.planner != "graph";
+    return noMotion(context, takes.front().failure, options.settings.sound,
+                    canFit ? "--fit looks for a restitution that suits the sound" : "");
   }
   return context.succeed(options.output.string());
 }
@@ -122,6 +133,10 @@ int runSync(SyncOptions options, CommandContext& context) {
 void addSearchOptions(CLI::App& command, SyncOptions& options) {
   auto& settings = options.settings;
   command.add_option("--surface", settings.surface, "surface of the object file");
+  command.add_option("--restitution", settings.restitution, "instead of the surface's")
+      ->check(CLI::Range(0.0, 0.95));
+  command.add_flag("--fit", settings.fit,
+                   "look for the restitution, and the surface if none is named, that suit best");
   command.add_option("--planner", settings.planner, "shoot or graph")->capture_default_str();
   command.add_option("--takes", settings.takes, "number of different motions, best first")
       ->check(CLI::Range(1, kMaxTakes))

@@ -73,6 +73,12 @@ struct MotionObject {
   double mass = 0, restitution = 0, friction = 0;
 };
 
+/// What was asked for, where restitution and surface were fitted to the sound.
+struct GivenSurface {
+  std::string surface;
+  double restitution = 0;
+};
+
 /// The sound that the motion is synchronised to.
 struct MotionSound {
   std::string file;
@@ -97,6 +103,7 @@ struct Motion {
   std::uint64_t seed = 0;
   std::string planner;
   MotionObject object;
+  std::optional<GivenSurface> given;  ///< only where `object` has a fitted restitution
   MotionSound sound;
   bool success = false;
   std::string failure;  ///< empty when successful

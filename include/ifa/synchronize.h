@@ -35,10 +35,15 @@ struct GraphOptions {
 
 /// What is to be synchronised, and how. The defaults are those of `ifa sync`.
 struct SynchronizeSettings {
-  std::filesystem::path sound;    ///< sound file, or a signature in JSON
-  std::filesystem::path labels;   ///< Audacity labels; empty: the contacts are detected
-  std::string object;             ///< name in the library, or path of an object file
-  std::string surface;            ///< empty: the object's default
+  std::filesystem::path sound;        ///< sound file, or a signature in JSON
+  std::filesystem::path labels;       ///< Audacity labels; empty: the contacts are detected
+  std::string object;                 ///< name in the library, or path of an object file
+  std::string surface;                ///< empty: the object's default
+  std::optional<double> restitution;  ///< 0 to 0.95, instead of the surface's
+  double restitutionScale = 1;  ///< times the surface's, at most 0.95: to plan with wrong ones
+  /// Also looks for the restitution, and where none is named the surface, that suit the sound best
+  /// (docs/fitting.md). Not with "graph".
+  bool fit = false;
   std::string planner = "shoot";  ///< or "graph"
   GraphOptions graph;             ///< for "graph"
   std::filesystem::path objects;  ///< folder of the library; empty: the program's own

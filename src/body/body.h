@@ -16,6 +16,9 @@ namespace ifa {
 /// numbers of simulated contacts are those that people mark in recordings (docs/method.md, 2).
 inline constexpr double kAudibleShare = 0.03;
 
+/// Largest restitution that a surface may have.
+inline constexpr double kMostRestitution = 0.95;
+
 /// Contact behaviour of an object on one kind of ground.
 struct SurfaceProperties {
   double restitution = 0.5;     ///< Newton coefficient, 0 to 0.95

@@ -30,6 +30,11 @@ void readObjectAndSound(const JsonNode& root, Motion& motion) {
   motion.object.mass = object.member("mass").number(1e-9, 1e6);
   motion.object.restitution = object.member("restitution").number(0, 1);
   motion.object.friction = object.member("friction").number(0, 100);
+  if (root.has("fit")) {
+    const JsonNode fit = root.member("fit");
+    motion.given = GivenSurface{fit.member("given_surface").text(),
+                                fit.member("given_restitution").number(0, 1)};
+  }
   motion.sound.file = sound.member("file").text();
   motion.sound.rate = sound.member("rate").integer<int>();
   motion.sound.duration = sound.member("duration").number(0, kLongest);

@@ -83,6 +83,10 @@ void appendHeader(Text& out, const Motion& motion) {
   out.field("surface", motion.object.surface).field("mass", motion.object.mass);
   out.field("restitution", motion.object.restitution);
   out.field("friction", motion.object.friction, "},\n ");
+  if (motion.given) {
+    out.key("fit").raw("{").field("given_surface", motion.given->surface);
+    out.field("given_restitution", motion.given->restitution, "},\n ");
+  }
   out.key("sound").raw("{").field("file", motion.sound.file);
   out.field("rate", std::int64_t{motion.sound.rate}).field("duration", motion.sound.duration);
   out.field("first_contact", motion.sound.firstContact, "},\n ");

@@ -62,6 +62,12 @@ bool holds(const fs::path& folder, const OutputSettings& output) {
   });
 }
 
+bool sameRestitution(const Motion& motion, const SynchronizeSettings& settings) {
+  if (motion.given.has_value() != settings.fit) return false;
+  const double given = motion.given ? motion.given->restitution : motion.object.restitution;
+  return given == settings.restitution.value_or(given);
+}
+
 bool isDone(const BatchItem& item, const SynchronizeSettings& settings, const fs::path& folder,
             const OutputSettings& output) {
   for (const auto& file : motionFiles(folder, settings.takes)) {
@@ -69,8 +75,9 @@ bool isDone(const BatchItem& item, const SynchronizeSettings& settings, const fs
     const auto written = fs::last_write_time(file, code);
     if (code || isNewer(item.sound, written) || isNewer(item.labels, written)) return false;
     const auto motion = readMotionJson(file);
-    const bool same = motion && motion->success && motion->seed == settings.seed &&
-                      motion->program == programVersion() && motion->planner == settings.planner &&
+    const bool same = motion && sameRestitution(*motion, settings) && motion->success &&
+                      motion->seed == settings.seed && motion->program == programVersion() &&
+                      motion->planner == settings.planner &&
                       motion->object.name == fs::path(settings.object).stem().string() &&
                       (settings.surface.empty() || motion->object.surface == settings.surface);
     if (!same || !holds(file.parent_path(), output)) return false;

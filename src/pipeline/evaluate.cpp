@@ -35,6 +35,8 @@ void judge(const Motion& motion, const std::string& planner, CaseOutcome& outcom
   outcome.scoreWithoutSound = motion.scoreWithoutSound;
   outcome.meanFv = motion.meanFv;
   outcome.searchSeconds = motion.searchSeconds;
+  outcome.restitution = motion.object.restitution;
+  outcome.givenRestitution = motion.given ? motion.given->restitution : outcome.restitution;
   for (const MotionContact& contact : motion.contacts) {
     outcome.bends.push_back(contact.bend);
     outcome.arrivalBends.push_back(contact.arrivalBend);
@@ -56,6 +58,8 @@ SynchronizeSettings settingsFor(const EvaluateSettings& settings, const Evaluati
   one.graph = settings.graph;
   one.seed = settings.seed;
   one.timeLimitSeconds = settings.timeLimitSeconds;
+  one.restitutionScale = settings.restitutionScale;
+  one.fit = settings.fit;
   return one;
 }
 

@@ -24,6 +24,8 @@ struct EvaluateSettings {
   GraphOptions graph;  ///< for "graph"; a database that is named serves one object
   std::uint64_t seed = 1;
   double timeLimitSeconds = 0;   ///< per case; 0: never
+  double restitutionScale = 1;   ///< plans with so many times the objects' restitution, up to 0.95
+  bool fit = false;              ///< looks for the restitution (docs/fitting.md)
   int jobs = 1;                  ///< cases at a time; each uses all cores by itself
   std::size_t limit = 0;         ///< cases per object folder, the first ones; 0: all
   std::optional<Parity> parity;  ///< only cases whose name ends in such a number
@@ -45,12 +47,13 @@ struct CaseOutcome {
   std::string failure;  ///< why it is not solved
   int contacts = 0;     ///< n, events of the filtered signature
   double score = 0, scoreWithoutSound = 0, meanFv = 0;
-  double searchSeconds = 0;          ///< of the planner
-  double wallSeconds = 0;            ///< from reading the sound to the audited motion
-  double startError = 0;             ///< largest |contact start - target|, s
-  std::vector<double> bends;         ///< of every contact
-  std::vector<double> arrivalBends;  ///< likewise
-  std::int64_t events = -1;          ///< in the database; negative: none was used
+  double searchSeconds = 0;                      ///< of the planner
+  double wallSeconds = 0;                        ///< from reading the sound to the audited motion
+  double givenRestitution = 0, restitution = 0;  ///< planned with; as fitted, if that was asked for
+  double startError = 0;                         ///< largest |contact start - target|, s
+  std::vector<double> bends;                     ///< of every contact
+  std::vector<double> arrivalBends;              ///< likewise
+  std::int64_t events = -1;                      ///< in the database; negative: none was used
   double goodSeconds = -1;  ///< until Score 0.3 was reached ("graph"); negative: it was not
 };
 

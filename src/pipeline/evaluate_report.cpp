@@ -56,14 +56,21 @@ std::string markdownRow(const EvaluationRow& row) {
       row.events < 0 ? "" : markdownOfGraph(row));
 }
 
+/// "0.56", or "0.80 for 0.56" where it was fitted.
+std::string restitutionOf(const CaseOutcome& outcome) {
+  const std::string used = fmt::format("{:.2f}", outcome.restitution);
+  if (outcome.restitution == outcome.givenRestitution) return used;
+  return fmt::format("{} for {:.2f}", used, outcome.givenRestitution);
+}
+
 std::string markdownCase(const CaseOutcome& outcome) {
   const double largest =
       outcome.bends.empty() ? 0 : *std::max_element(outcome.bends.begin(), outcome.bends.end());
   return fmt::format(
-      "| {} | {} | {} | {} | {:.3f} | {:.3f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {} |\n",
+      "| {} | {} | {} | {} | {:.3f} | {:.3f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {} | {} |\n",
       outcome.what.object, outcome.what.name, outcome.contacts, outcome.solved ? "yes" : "no",
       outcome.score, outcome.meanFv, median(outcome.bends), largest, outcome.searchSeconds,
-      outcome.wallSeconds, cell(outcome.failure));
+      outcome.wallSeconds, restitutionOf(outcome), cell(outcome.failure));
 }
 
 Json rowJson(const EvaluationRow& row) {
@@ -98,6 +105,8 @@ Json caseJson(const CaseOutcome& outcome) {
           {"bends", outcome.bends},
           {"arrival_bends", outcome.arrivalBends},
           {"seconds_to_good", outcome.goodSeconds < 0 ? Json(nullptr) : Json(outcome.goodSeconds)},
+          {"given_restitution", outcome.givenRestitution},
+          {"restitution", outcome.restitution},
           {"largest_start_error", outcome.startError},
           {"search_seconds", outcome.searchSeconds},
           {"wall_seconds", outcome.wallSeconds}};
@@ -169,7 +178,7 @@ std::string evaluationMarkdown(const Evaluation& evaluation, bool withCases) {
   if (!withCases) return text;
   text +=
       "\n| object | case | n | solved | Score | f_v | bend, median | bend, largest | search, s | "
-      "wall, s | why not |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
+      "wall, s | restitution | why not |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const CaseOutcome& outcome : evaluation.cases) text += markdownCase(outcome);
   return text;
 }
@@ -183,6 +192,8 @@ std::string evaluationJson(const Evaluation& evaluation) {
                        {"program", std::string(programVersion())},
                        {"planner", evaluation.settings.planner},
                        {"seed", evaluation.settings.seed},
+                       {"restitution_scale", evaluation.settings.restitutionScale},
+                       {"fit", evaluation.settings.fit},
                        {"parity", parityName(evaluation.settings.parity)},
                        {"interrupted", evaluation.interrupted},
                        {"objects", rows},

@@ -23,6 +23,7 @@ using Json = nlohmann::json;
 
 constexpr std::size_t kMostBytes = 1 << 16;
 constexpr std::size_t kImpulseDrops = 500;
+constexpr int kRestitutionDrops = 1000;
 
 /// Everything that what is learnt depends on.
 std::uint64_t keyOf(const Body& body, const SurfaceProperties& surface) {
@@ -42,29 +43,48 @@ std::uint64_t keyOf(const Body& body, const SurfaceProperties& surface) {
   return hash.value();
 }
 
-std::optional<Learned> read(const fs::path& file, std::uint64_t key) {
+/// What `take` makes of the file's content; nothing when it was learnt of something else.
+template <class Take>
+auto read(const fs::path& file, std::uint64_t key, const Take& take)
+    -> std::optional<decltype(take(Json()))> {
   const auto text = readFile(file, kMostBytes);
   if (!text) return {};
   const Json json = Json::parse(*text, nullptr, false);
   try {
     if (json.at("key") != key) return {};
-    const EnergyOutlook::Coefficients coefficients = {
-        json.at("weights").get<std::array<double, EnergyOutlook::kFeatures>>(), json.at("spread"),
-        json.at("rest_energy")};
-    Learned learned{json.at("reference_impulse"), EnergyOutlook(coefficients)};
-    return learned;
+    return take(json);
   } catch (const Json::exception&) {
     return {};
   }
 }
 
-void write(const fs::path& file, std::uint64_t key, const Learned& learned) {
+Learned learnedFrom(const Json& json) {
+  const EnergyOutlook::Coefficients coefficients = {
+      json.at("weights").get<std::array<double, EnergyOutlook::kFeatures>>(), json.at("spread"),
+      json.at("rest_energy")};
+  return {json.at("reference_impulse"), EnergyOutlook(coefficients)};
+}
+
+RestitutionOutlook restitutionFrom(const Json& json) {
+  return RestitutionOutlook(
+      {json.at("weights").get<std::array<double, RestitutionOutlook::kFeatures>>(),
+       json.at("spread")});
+}
+
+Json jsonOf(const Learned& learned) {
   const EnergyOutlook::Coefficients outlook = learned.outlook.coefficients();
-  const Json json = {{"key", key},
-                     {"reference_impulse", learned.referenceImpulse},
-                     {"weights", outlook.weights},
-                     {"spread", outlook.spread},
-                     {"rest_energy", outlook.restEnergy}};
+  return {{"reference_impulse", learned.referenceImpulse},
+          {"weights", outlook.weights},
+          {"spread", outlook.spread},
+          {"rest_energy", outlook.restEnergy}};
+}
+
+Json jsonOf(const RestitutionOutlook& outlook) {
+  return {{"weights", outlook.coefficients().weights}, {"spread", outlook.coefficients().spread}};
+}
+
+void write(const fs::path& file, std::uint64_t key, Json json) {
+  json["key"] = key;
   std::error_code code;
   fs::create_directories(file.parent_path(), code);
   // A cache that cannot be written is no loss but of time.
@@ -78,7 +98,7 @@ Learned learnObject(const Body& body, const SurfaceProperties& surface, const fs
   const std::uint64_t key = keyOf(body, surface);
   const fs::path file = cache / fmt::format("object-{:016x}.json", key);
   if (!cache.empty()) {
-    if (const auto known = read(file, key)) return *known;
+    if (const auto known = read(file, key, learnedFrom)) return *known;
   }
   progress("learn", 0);
   SurfaceProperties heard = surface;
@@ -91,9 +111,24 @@ Learned learnObject(const Body& body, const SurfaceProperties& surface, const fs
   const Learned learned{heard.referenceImpulse,
                         EnergyOutlook::learn(body, model, audibleCut(body, heard),
                                              ShootingPlannerSettings().outlookDrops, progress)};
-  if (!cache.empty() && !progress.stopRequested()) write(file, key, learned);
+  if (!cache.empty() && !progress.stopRequested()) write(file, key, jsonOf(learned));
   progress("learn", 1);
   return learned;
+}
+
+RestitutionOutlook learnRestitution(const Body& body, const SurfaceProperties& surface,
+                                    const fs::path& cache, const Progress& progress) {
+  const std::uint64_t key = keyOf(body, surface);
+  const fs::path file = cache / fmt::format("restitution-{:016x}.json", key);
+  if (!cache.empty()) {
+    if (const auto known = read(file, key, restitutionFrom)) return *known;
+  }
+  progress("learn", 0);
+  const auto outlook = RestitutionOutlook::learn(body, surface, audibleCut(body, surface),
+                                                 kRestitutionDrops, progress);
+  if (!cache.empty() && !progress.stopRequested()) write(file, key, jsonOf(outlook));
+  progress("learn", 1);
+  return outlook;
 }
 
 }  // namespace ifa

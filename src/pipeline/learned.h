@@ -7,6 +7,7 @@
 #include "base/progress.h"
 #include "body/body.h"
 #include "planner/energy_outlook.h"
+#include "planner/restitution_outlook.h"
 
 namespace ifa {
 
@@ -21,5 +22,12 @@ struct Learned {
 /// `cache` is never used.
 [[nodiscard]] Learned learnObject(const Body& body, const SurfaceProperties& surface,
                                   const std::filesystem::path& cache, const Progress& progress);
+
+/// The same of the restitution that a rhythm sounds like, about the surface's own.
+/// @param surface  with its J_ref
+[[nodiscard]] RestitutionOutlook learnRestitution(const Body& body,
+                                                  const SurfaceProperties& surface,
+                                                  const std::filesystem::path& cache,
+                                                  const Progress& progress);
 
 }  // namespace ifa

@@ -13,8 +13,11 @@
 #include "base/staged_folder.h"
 #include "base/version.h"
 #include "body/object_file.h"
+#include "body/symmetry.h"
 #include "motion/build_motion.h"
+#include "pipeline/check_settings.h"
 #include "pipeline/copy_object.h"
+#include "pipeline/fit.h"
 #include "pipeline/hear.h"
 #include "pipeline/learned.h"
 #include "pipeline/output.h"
@@ -26,24 +29,6 @@ namespace ifa {
 namespace fs = std::filesystem;
 
 namespace {
-
-tl::unexpected<Error> usage(std::string message, std::string place, std::string remedy) {
-  return tl::unexpected<Error>(
-      {ErrorCode::kUsage, std::move(message), std::move(place), std::move(remedy)});
-}
-
-Result<void> checkRange(double value, double low, double high, const char* place) {
-  if (std::isfinite(value) && value >= low && value <= high) return {};
-  return usage("is out of range", place, fmt::format("give a number from {:g} to {:g}", low, high));
-}
-
-Result<void> checkSettings(const SynchronizeSettings& settings) {
-  if (auto good = checkRange(settings.takes, 1, kMaxTakes, "takes"); !good) return good;
-  if (auto good = checkRange(settings.timeLimitSeconds, 0, 1e6, "time limit"); !good) return good;
-  if (auto good = checkRange(settings.energyGain, 0, 10, "energy gain"); !good) return good;
-  if (auto good = checkRange(settings.graph.earlyExit, 0, 1, "early exit"); !good) return good;
-  return checkRange(settings.preRollSeconds, 0, 10, "pre-roll");
-}
 
 // The library that the settings name goes before the program's own.
 Result<Body> loadBody(const SynchronizeSettings& settings) {
@@ -81,6 +66,7 @@ Result<Job> prepare(const SynchronizeSettings& settings) {
   if (!planner) return tl::unexpected(planner.error());
   auto body = loadBody(settings);
   if (!body) return tl::unexpected(body.error());
+  changeRestitution(settings, body->definition);
   auto surface = chooseSurface(settings, body->definition);
   if (!surface) return tl::unexpected(surface.error());
   auto heard = hear(settings, body->definition.mergeGap);
@@ -92,6 +78,12 @@ Result<Job> prepare(const SynchronizeSettings& settings) {
 // Takes time on an object's first use, so it comes after all that can be refused at once.
 Result<void> learn(Job& job, const SynchronizeSettings& settings, GraphShelf& shelf,
                    const Progress& progress) {
+  for (auto& [name, other] : job.body.definition.surfaces) {
+    // A fit learns the rest of the restitutions that it tries; the threshold of hearing stays.
+    if (!settings.fit || other.referenceImpulse > 0) continue;
+    other.referenceImpulse = learnObject(job.body, other, cacheFolder(), progress).referenceImpulse;
+  }
+  if (settings.fit) return {};
   SurfaceProperties& surface = job.body.definition.surfaces.at(job.surface);
   const Learned learned = learnObject(job.body, surface, cacheFolder(), progress);
   surface.referenceImpulse = learned.referenceImpulse;
@@ -131,6 +123,7 @@ PlanRequest makeRequest(const SynchronizeSettings& settings, const Job& job) {
   request.body = &job.body;
   request.surface = job.body.definition.surfaces.at(job.surface);
   request.surfaceName = job.surface;
+  request.symmetry = findSymmetry(job.body).elements();
   request.signature = job.heard.signature;
   request.settings.seed = settings.seed;
   request.settings.takes = settings.takes;
@@ -151,26 +144,40 @@ void auditTake(Motion& motion, const Body& body) {
   motion.success = motion.failure.empty();
 }
 
+// On the surface that was asked for, or where the fit goes best.
+Result<Fit> plan(const SynchronizeSettings& settings, const Job& job, const Progress& progress) {
+  const PlanRequest request = makeRequest(settings, job);
+  if (settings.fit) {
+    FitRequest wanted{job.planner.get(), request, job.body.definition.surfaces, job.surface,
+                      cacheFolder()};
+    if (!settings.surface.empty()) {
+      wanted.surfaces = {{job.surface, request.surface}};
+    }
+    return planWithFit(wanted, progress);
+  }
+  auto plans = job.planner->plan(request, progress);
+  if (!plans) return tl::unexpected(plans.error());
+  return Fit{request, job.surface, request.surface.restitution, std::move(*plans)};
+}
+
 struct Search {
-  PlanRequest request;
-  std::vector<Plan> plans;
+  Fit fit;
   double seconds = 0;
   bool interrupted = false;
 };
 
 Result<Search> search(const SynchronizeSettings& settings, const Job& job,
                       const Progress& progress) {
-  Search found{makeRequest(settings, job), {}, 0, false};
   const auto begin = std::chrono::steady_clock::now();
-  auto plans = job.planner->plan(found.request, progress);
-  if (!plans) return tl::unexpected(plans.error());
+  auto planned = plan(settings, job, progress);
+  if (!planned) return tl::unexpected(planned.error());
+  Search found{std::move(*planned), 0, false};
   found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  found.plans = std::move(*plans);
   found.interrupted = progress.stopRequested();
   if (found.interrupted) {
     // What was finished is kept; a search that was cut off says nothing about what is possible.
-    std::erase_if(found.plans, [](const Plan& plan) { return !plan.solved; });
-    if (found.plans.empty()) {
+    std::erase_if(found.fit.plans, [](const Plan& take) { return !take.solved; });
+    if (found.fit.plans.empty()) {
       return tl::unexpected<Error>({ErrorCode::kInterrupted, "interrupted", {}, {}});
     }
   }
@@ -184,11 +191,12 @@ DatabaseReference referenceTo(const EventDatabase& database) {
 
 Result<Motion> makeTake(const SynchronizeSettings& settings, const Job& job, const Search& found,
                         const Plan& plan) {
-  auto motion = buildMotion(found.request, plan, settings.preRollSeconds);
+  auto motion = buildMotion(found.fit.request, plan, settings.preRollSeconds);
   if (!motion) return motion;
   motion->program = programVersion();
   motion->seed = settings.seed;
   motion->planner = settings.planner;
+  if (settings.fit) motion->given = GivenSurface{job.surface, found.fit.given};
   motion->object.mesh = copiedMeshName(job.body.definition);
   motion->searchSeconds = found.seconds;
   if (job.database) motion->database = referenceTo(*job.database);
@@ -197,18 +205,20 @@ Result<Motion> makeTake(const SynchronizeSettings& settings, const Job& job, con
   return motion;
 }
 
-Result<Synchronization> run(const SynchronizeSettings& settings, const Job& job,
+Result<Synchronization> run(const SynchronizeSettings& settings, Job& job,
                             const Progress& progress) {
   auto found = search(settings, job, progress);
   if (!found) return tl::unexpected(found.error());
   Synchronization result{job.heard.signature, {}, found->interrupted, {}};
-  for (const Plan& plan : found->plans) {
-    auto motion = makeTake(settings, job, *found, plan);
+  for (const Plan& take : found->fit.plans) {
+    auto motion = makeTake(settings, job, *found, take);
     if (!motion) return tl::unexpected(motion.error());
     result.takes.push_back(std::move(*motion));
   }
   std::stable_partition(result.takes.begin(), result.takes.end(),
                         [](const Motion& motion) { return motion.success; });
+  // The object that goes with the motion is the one as used.
+  job.body.definition.surfaces.at(found->fit.surface) = found->fit.request.surface;
   return result;
 }
 

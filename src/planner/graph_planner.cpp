@@ -19,13 +19,15 @@ using Clock = std::chrono::steady_clock;
 /// Plans found so far, best first, no two the same.
 class Found {
  public:
-  explicit Found(std::size_t wanted) : wanted_(wanted) {}
+  explicit Found(const PlanRequest& request)
+      : wanted_(static_cast<std::size_t>(std::max(1, request.settings.takes))),
+        group_(request.symmetry) {}
 
   void add(Plan plan) {
     const auto worse = std::find_if(plans_.begin(), plans_.end(),
                                     [&](const Plan& other) { return plan.score > other.score; });
-    const auto same = [](const Plan& a) {
-      return [&a](const Plan& b) { return !differentPaths(a, b); };
+    const auto same = [this](const Plan& a) {
+      return [this, &a](const Plan& b) { return !differentTakes(a, b, group_); };
     };
     if (std::any_of(plans_.begin(), worse, same(plan))) return;
     const auto at = plans_.insert(worse, std::move(plan));
@@ -40,6 +42,7 @@ class Found {
 
  private:
   std::size_t wanted_;
+  const std::vector<Eigen::Matrix3d>& group_;
   std::vector<Plan> plans_;
 };
 
@@ -52,7 +55,7 @@ class GraphRun {
         settings_(settings),
         progress_(progress),
         connector_(request),
-        found_(static_cast<std::size_t>(std::max(1, request.settings.takes))) {}
+        found_(request) {}
 
   std::vector<Plan> run() {
     request_.signature.events.size() == 1 ? runSingle() : runSearch();

@@ -3,16 +3,21 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace ifa {
 
 namespace {
 
+using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Points = std::vector<Vector2d>;
 
-constexpr double kShare = 0.1;  ///< of the path's length
+constexpr double kShare = 0.1;                   ///< of the path's length
+constexpr double kCosine = 0.93969262078590838;  ///< of 20 degrees
 
 Points pathOf(const Plan& plan) {
   Points points;
@@ -40,34 +45,110 @@ Points centred(Points points) {
   return points;
 }
 
-/// Largest distance between two centred paths once `b` is turned onto `a` by least squares.
-double farthestApart(const Points& a, const Points& b) {
+/// A turn of the plane.
+struct Turn {
+  double c = 1, s = 0;  ///< cosine and sine
+};
+
+Turn turnAlong(double along, double across) {
+  const double size = std::hypot(along, across);
+  return size > 0 ? Turn{along / size, across / size} : Turn{};
+}
+
+/// The turn that lays centred path `b` onto `a` by least squares.
+Turn turnOnto(const Points& a, const Points& b) {
   double along = 0, across = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
     along += a[i].dot(b[i]);
     across += b[i].x() * a[i].y() - b[i].y() * a[i].x();
   }
-  const double size = std::hypot(along, across);
-  const double c = size > 0 ? along / size : 1, s = size > 0 ? across / size : 0;
+  return turnAlong(along, across);
+}
+
+/// The turn about the vertical that leaves the smallest angle between two poses.
+Turn turnOnto(const Matrix3d& a, const Matrix3d& b) {
+  const Matrix3d r = a * b.transpose();
+  return turnAlong(r(0, 0) + r(1, 1), r(1, 0) - r(0, 1));
+}
+
+/// Largest distance between two centred paths once `b` is turned.
+double farthestApart(const Points& a, const Points& b, const Turn& turn) {
   double apart = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
-    const Vector2d turned(c * b[i].x() - s * b[i].y(), s * b[i].x() + c * b[i].y());
+    const Vector2d turned(turn.c * b[i].x() - turn.s * b[i].y(),
+                          turn.s * b[i].x() + turn.c * b[i].y());
     apart = std::max(apart, (a[i] - turned).norm());
   }
   return apart;
+}
+
+bool nearlySamePose(const Matrix3d& a, const Matrix3d& b, const Turn& turn) {
+  Matrix3d about;
+  about << turn.c, -turn.s, 0, turn.s, turn.c, 0, 0, 0, 1;
+  const double cosine = 0.5 * ((a.transpose() * about * b).trace() - 1);
+  return cosine >= kCosine;
+}
+
+Matrix3d finalPose(const Plan& plan) {
+  const PlannedContact& last = plan.contacts.back();
+  return last.placement.apply(last.event.after).orientation.toRotationMatrix();
+}
+
+Points mirrored(Points points) {
+  for (Vector2d& p : points) p.y() = -p.y();
+  return points;
+}
+
+/// Both paths, centred, and how far they may lie apart.
+struct Pair {
+  Points a, b;
+  double most = 0;
+  [[nodiscard]] bool near(const Turn& turn) const { return farthestApart(a, b, turn) <= most; }
+};
+
+Pair pairOf(const Plan& a, const Plan& b) {
+  Pair pair{pathOf(a), pathOf(b), 0};
+  pair.most = kShare * std::max(lengthOf(pair.a), lengthOf(pair.b));
+  pair.a = centred(std::move(pair.a));
+  pair.b = centred(std::move(pair.b));
+  return pair;
+}
+
+/// Whether the second motion, its final pose given as one of those that look alike, is the first.
+bool sameTake(const Pair& paths, const Turn& byPaths, bool nearByPaths, const Matrix3d& pose,
+              const Matrix3d& other) {
+  if (nearByPaths && nearlySamePose(pose, other, byPaths)) return true;
+  const Turn byPoses = turnOnto(pose, other);
+  return nearlySamePose(pose, other, byPoses) && paths.near(byPoses);
 }
 
 }  // namespace
 
 bool differentPaths(const Plan& a, const Plan& b) {
   if (a.contacts.size() != b.contacts.size()) return true;
-  const Points pa = pathOf(a), pb = pathOf(b);
-  if (pa.empty()) return false;
-  const Points ca = centred(pa), cb = centred(pb);
-  Points mirrored = cb;
-  for (Vector2d& p : mirrored) p.y() = -p.y();
-  const double apart = std::min(farthestApart(ca, cb), farthestApart(ca, mirrored));
-  return apart > kShare * std::max(lengthOf(pa), lengthOf(pb));
+  if (a.contacts.empty()) return false;
+  Pair pair = pairOf(a, b);
+  if (pair.near(turnOnto(pair.a, pair.b))) return false;
+  pair.b = mirrored(std::move(pair.b));
+  return !pair.near(turnOnto(pair.a, pair.b));
+}
+
+bool differentTakes(const Plan& a, const Plan& b, std::span<const Matrix3d> group) {
+  if (a.contacts.size() != b.contacts.size()) return true;
+  if (a.contacts.empty()) return false;
+  static const std::array<Matrix3d, 1> kNone = {Matrix3d::Identity()};
+  if (group.empty()) group = kNone;
+  const Pair straight = pairOf(a, b);
+  const Pair mirror = {straight.a, mirrored(straight.b), straight.most};
+  const Turn turn = turnOnto(straight.a, straight.b), mirrorTurn = turnOnto(mirror.a, mirror.b);
+  const bool near = straight.near(turn), nearMirrored = mirror.near(mirrorTurn);
+  const Matrix3d pose = finalPose(a), other = finalPose(b);
+  const Matrix3d across = Eigen::Vector3d(1, -1, 1).asDiagonal();
+  return std::none_of(group.begin(), group.end(), [&](const Matrix3d& element) {
+    // An improper element and the mirror together make a rotation again.
+    if (element.determinant() > 0) return sameTake(straight, turn, near, pose, other * element);
+    return sameTake(mirror, mirrorTurn, nearMirrored, pose, across * other * element);
+  });
 }
 
 }  // namespace ifa

@@ -1,17 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// When two plans are different takes, and not the same path turned, mirrored or relabelled.
+// When two plans are different takes, and not the same motion turned, mirrored or relabelled.
 #pragma once
 
-#include <vector>
+#include <Eigen/Core>
+#include <span>
 
 #include "planner/planner.h"
 
 namespace ifa {
 
-/// Whether, after the best planar registration, and of one of the two mirrored where that helps,
-/// some contact (or the end) lies over 10 % of the path's length apart (docs/method.md 6). A body's
-/// symmetry group does not change its path, so paths that differ are different takes whatever the
-/// group.
+/// Whether two plans are different takes (docs/method.md 6): after the best planar registration,
+/// and whatever element of the group is applied, their final poses differ by over 20 degrees, or
+/// some contact (or the end) lies over 10 % of the path's length apart. Decision: registered by
+/// their paths and by their final poses; one that makes them the same is enough. A mirror image is
+/// the same take where the group holds an improper element, which makes it a motion of the same
+/// body.
+/// @param group  orthogonal maps of the body onto itself, principal frame; empty: the identity
+[[nodiscard]] bool differentTakes(const Plan& a, const Plan& b,
+                                  std::span<const Eigen::Matrix3d> group = {});
+
+/// The part of it that looks at paths alone, mirrored or not.
 [[nodiscard]] bool differentPaths(const Plan& a, const Plan& b);
 
 }  // namespace ifa

@@ -2,6 +2,7 @@
 // The interface of all planners: a signature and a body in, ranked and different plans out.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -52,6 +53,10 @@ struct PlanRequest {
   /// Whether a complete plan may be taken, judged by others (the audit); the next best is taken
   /// where it may not. Asked of few. Empty: all may.
   std::function<bool(const PlanRequest&, const Plan&)> accepts;
+
+  /// Maps of the body onto itself, principal frame, the first the identity, which make no other
+  /// take; empty: the identity alone.
+  std::vector<Eigen::Matrix3d> symmetry;
 
   [[nodiscard]] bool accepted(const Plan& plan) const { return !accepts || accepts(*this, plan); }
 };

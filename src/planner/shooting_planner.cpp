@@ -139,7 +139,7 @@ class Takes {
     plans_.clear();
     for (Plan& plan : found) {
       const bool isNew = std::all_of(plans_.begin(), plans_.end(), [&](const Plan& other) {
-        return differentPaths(plan, other);
+        return differentTakes(plan, other, problem_.request.symmetry);
       });
       if (!isNew || plans_.size() >= wanted) continue;
       if (isAccepted(plan)) plans_.push_back(std::move(plan));
@@ -169,6 +169,26 @@ class Takes {
   int refused_ = 0;
 };
 
+/// How much work is left for more takes than one: all of them cost at most twice what one does.
+/// Work is counted in widths of passes.
+class TakesBudget {
+ public:
+  [[nodiscard]] double width(double planned) const {
+    return price_ > 0 ? std::min(planned, left()) : planned;
+  }
+  [[nodiscard]] bool spent() const { return price_ > 0 && left() < kNarrowest; }
+  /// One pass more. @param one  whether a single take would be settled by now
+  void count(double width, bool one) {
+    work_ += width;
+    if (one && price_ == 0) price_ = work_;
+  }
+
+ private:
+  static constexpr double kNarrowest = 0.25;
+  [[nodiscard]] double left() const { return 2 * price_ - work_; }
+  double work_ = 0, price_ = 0;
+};
+
 }  // namespace
 
 Result<std::vector<Plan>> ShootingPlanner::plan(const PlanRequest& request,
@@ -192,11 +212,15 @@ Result<std::vector<Plan>> ShootingPlanner::plan(const PlanRequest& request,
   const ShootingProblem problem(request, settings_);
   Takes takes(problem);
   std::vector<Plan> partial;
-  const int passes =
-      std::max(1, static_cast<int>(std::lround(settings_.passes * request.settings.effort)));
+  // A budget of less than one pass makes that pass narrower.
+  const double budget = settings_.passes * request.settings.effort;
+  const int passes = std::max(1, static_cast<int>(std::lround(budget)));
+  const double width = std::min(1.0, budget);
+  TakesBudget work;
   std::vector<bool> hard(problem.targets.size(), false);
-  for (int pass = 0; pass < passes && !stop(); ++pass) {
-    ShootingSearch search(problem, static_cast<std::uint64_t>(pass), 1 + 0.5 * pass, hard);
+  for (int pass = 0; pass < passes && !work.spent() && !stop(); ++pass) {
+    const double wide = work.width(width + 0.5 * pass);
+    ShootingSearch search(problem, static_cast<std::uint64_t>(pass), wide, hard);
     search.run(stop, [&](double share) { progress("search", (pass + share) / passes); });
     takes.add(search);
     if (takes.plans().empty()) {
@@ -216,7 +240,10 @@ Result<std::vector<Plan>> ShootingPlanner::plan(const PlanRequest& request,
       if (pass > 0 && (farthest == nullptr || (farthest->level == 0 && problem.targets.size() > 1)))
         break;
     }
-    if (takes.enough() && (pass > 0 || takes.plans()[0].score >= settings_.goodScore)) break;
+    const bool one =
+        !takes.plans().empty() && (pass > 0 || takes.plans()[0].score >= settings_.goodScore);
+    work.count(wide, one);
+    if (one && takes.enough()) break;
   }
   if (progress.stopRequested() && takes.plans().empty()) {
     return tl::unexpected<Error>({ErrorCode::kInterrupted, "interrupted", {}, {}});

@@ -2,12 +2,12 @@
 #include "planner/shooting_search.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
 
 #include "base/parallel.h"
 #include "base/portable_math.h"
-#include "body/symmetry.h"
 #include "planner/shooting_worker.h"
 #include "sampler/drop_statistics.h"
 
@@ -37,6 +37,27 @@ double rhythmCost(const std::vector<double>& gaps, const std::vector<double>& wa
   return cost;
 }
 
+/// Keeps the best few complete motions, best first. Where several takes are wanted, no more than a
+/// take's share of one first contact, unless there is room: what differs late differs little.
+/// Returns what another one must be worth to be kept.
+double keepComplete(std::vector<ShootingNode>& done, int takes) {
+  std::stable_sort(done.begin(), done.end(), better);
+  const std::size_t ofOneRoot = kMostComplete / static_cast<std::size_t>(std::max(1, takes));
+  std::map<unsigned, std::size_t> ofRoot;
+  std::vector<ShootingNode> kept, more;
+  for (ShootingNode& node : done) {
+    (++ofRoot[node.root] <= ofOneRoot ? kept : more).push_back(std::move(node));
+  }
+  if (kept.size() > kMostComplete) kept.resize(kMostComplete);
+  const double bound = kept.size() == kMostComplete ? kept.back().worth() : kNoBound;
+  const std::size_t room = std::min(kMostComplete - kept.size(), more.size());
+  std::move(more.begin(), more.begin() + static_cast<std::ptrdiff_t>(room),
+            std::back_inserter(kept));
+  done = std::move(kept);
+  std::stable_sort(done.begin(), done.end(), better);
+  return bound;
+}
+
 }  // namespace
 
 ShootingProblem::ShootingProblem(const PlanRequest& planned, const ShootingPlannerSettings& tuning)
@@ -61,8 +82,8 @@ ShootingProblem::ShootingProblem(const PlanRequest& planned, const ShootingPlann
 
 void ShootingProblem::aim() {
   const EventDatabase& database = *request.database;
-  group = settings.symmetry ? findSymmetry(*request.body).elements()
-                            : std::vector<Eigen::Matrix3d>{Eigen::Matrix3d::Identity()};
+  if (settings.symmetry) group = request.symmetry;
+  if (group.empty()) group = {Eigen::Matrix3d::Identity()};
   std::vector<std::vector<RhythmMatch>> matches(targets.size());
   parallelFor(targets.size(), [&](std::size_t level) {
     const bool ends = level + 1 == targets.size() && request.signature.terminal;
@@ -106,8 +127,7 @@ void ShootingSearch::run(const std::function<bool()>& stop,
   for (std::size_t level = 0; level < n && !stop(); ++level) {
     if (level + 1 == n) {
       complete_ = levels_[level];
-      std::stable_sort(complete_.begin(), complete_.end(), better);
-      if (complete_.size() > kMostComplete) complete_.resize(kMostComplete);
+      keepComplete(complete_, problem_.request.settings.takes);
       break;
     }
     if (level < hard_.size() && hard_[level]) {
@@ -175,9 +195,7 @@ void ShootingSearch::expandLevel(std::size_t level, const std::function<bool()>&
       // Of complete motions only the best few matter; at other contacts rank decides later.
       if (last && levels_[next].size() > kMostComplete) {
         auto& done = levels_[next];
-        std::stable_sort(done.begin(), done.end(), better);
-        done.resize(kMostComplete);
-        bound = done.back().worth();
+        bound = keepComplete(done, problem_.request.settings.takes);
       }
     }
     if (events[next].weight >= 1) break;

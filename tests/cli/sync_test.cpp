@@ -149,6 +149,28 @@ TEST_F(Sync, GivesSeveralTakesInFoldersOfTheirOwn) {
   EXPECT_TRUE(fs::exists(folder_ / "out/mine.txt"));
 }
 
+TEST_F(Sync, LooksForTheRestitutionAndTellsWhichItTook) {
+  const auto result = runProgram(command("out", {"--fit", "--restitution", "0.5"}));
+  ASSERT_EQ(result.exit, 0) << result.err;
+  const auto found = motion("out");
+  EXPECT_EQ(found.at("fit").at("given_surface"), "desk");
+  EXPECT_EQ(found.at("fit").at("given_restitution"), 0.5);
+  const double used = found.at("object").at("restitution").get<double>();
+  EXPECT_GE(used, 0.35);
+  EXPECT_LE(used, 0.5 / 0.7);
+  EXPECT_THAT(result.out, HasSubstr("(0.50 was given)"));
+  // The object beside it is the one as used, and the motion holds its audit with it.
+  const auto object = json::parse(readText(folder_ / "out/Eraser.json"));
+  EXPECT_EQ(object.at("surfaces").at("desk").at("restitution").get<double>(), used);
+  EXPECT_EQ(runProgram({"verify", folder_ / "out/motion.json"}).exit, 0);
+}
+
+TEST_F(Sync, PlansWithTheRestitutionThatIsGiven) {
+  ASSERT_EQ(runProgram(command("out", {"--restitution", "0.4"})).exit, 0);
+  EXPECT_EQ(motion("out").at("object").at("restitution"), 0.4);
+  EXPECT_FALSE(motion("out").contains("fit"));
+}
+
 TEST_F(Sync, TellsAProgramWhatItDoes) {
   const auto result = runProgram(command("out", {"--json-progress"}));
   ASSERT_EQ(result.exit, 0);
@@ -173,6 +195,7 @@ TEST_F(Sync, WritesTheBestPartialMotionWhereNoneIsPossible) {
   const auto result = runProgram(command("out"));
   EXPECT_EQ(result.exit, 4);
   EXPECT_THAT(result.err, HasSubstr("contact 2"));
+  EXPECT_THAT(result.err, HasSubstr("--fit"));
   const auto found = motion("out");
   EXPECT_FALSE(found.at("success").get<bool>());
   EXPECT_THAT(found.at("failure").get<std::string>(), HasSubstr("contact 2"));

@@ -23,6 +23,7 @@ Motion fullMotion() {
   motion.failure = "contact 3: \"too long a gap\"\n\xC3\xA4";
   motion.database = DatabaseReference{400000, 6751058, "0123abcd"};
   motion.cut = EventCut::kPaper;
+  motion.given = GivenSurface{"felt", 0.1 + 0.7};
   motion.score = 0.1 + 0.2;
   motion.contacts[1].arrival = Arrival::kSilentContact;
   motion.contacts[1].source = {SourceKind::kDatabase, -1, std::int64_t{1} << 60, 23};
@@ -56,6 +57,8 @@ TEST(MotionJson, HasTheFieldsOfTheContract) {
   EXPECT_EQ(json["trajectory"]["orientation"][0][0], 1.0);  // w comes first
   EXPECT_EQ(json["database"]["events"], 6751058);
   EXPECT_EQ(json["cut"], "paper");
+  EXPECT_EQ(json["fit"]["given_surface"], "felt");
+  EXPECT_EQ(json["fit"]["given_restitution"], 0.1 + 0.7);
   EXPECT_EQ(json["failure"], fullMotion().failure);
 }
 
@@ -64,8 +67,11 @@ TEST(MotionJson, LeavesOutWhatIsNotThere) {
   motion.failure.clear();
   motion.database.reset();
   motion.cut = EventCut::kAudible;
+  motion.given.reset();
   const Json json = asJson(motion);
   EXPECT_FALSE(json.contains("cut"));
+  EXPECT_FALSE(json.contains("fit"));
+  EXPECT_FALSE(parseMotion(json.dump(), "m.json")->given);
   EXPECT_TRUE(json["failure"].is_null());
   EXPECT_FALSE(json.contains("database"));
   for (const char* field : {"arrival_bend", "arrival_impulse_change", "arrival_angular_change"}) {

@@ -60,6 +60,12 @@ TEST(SynchronizeAll, DoesAgainWhatLacksAFileThatIsAskedFor) {
   output.formats.insert(OutputFormat::kGlb);
   EXPECT_EQ(outcome(output), BatchOutcome::kSolved);
   EXPECT_EQ(outcome(output), BatchOutcome::kSkipped);
+  settings.fit = true;
+  EXPECT_EQ(outcome(output), BatchOutcome::kSolved);
+  EXPECT_EQ(outcome(output), BatchOutcome::kSkipped);
+  settings.restitution = 0.3;
+  EXPECT_EQ(outcome(output), BatchOutcome::kSolved);
+  EXPECT_EQ(outcome(output), BatchOutcome::kSkipped);
 }
 
 }  // namespace

@@ -121,6 +121,24 @@ TEST_F(EvaluationSet, SolvesWhatADropGave) {
   EXPECT_GT(outcome.wallSeconds, 0);
 }
 
+TEST_F(EvaluationSet, CanBePlannedWithAWrongRestitutionAndFitted) {
+  add("Eraser/drop.signature.json", formatSignature(signatureOfADrop("Eraser")));
+  settings_.restitutionScale = 0.7;
+  const auto wrong = evaluate(settings_, {});
+  ASSERT_TRUE(wrong.has_value());
+  EXPECT_NEAR(wrong->cases.at(0).restitution, 0.7 * 0.338, 1e-9);
+  EXPECT_EQ(wrong->cases.at(0).givenRestitution, wrong->cases.at(0).restitution);
+  settings_.fit = true;
+  const auto fitted = evaluate(settings_, {});
+  ASSERT_TRUE(fitted.has_value());
+  EXPECT_NEAR(fitted->cases.at(0).givenRestitution, 0.7 * 0.338, 1e-9);
+  EXPECT_TRUE(fitted->cases.at(0).solved);
+  const auto json = nlohmann::json::parse(evaluationJson(*fitted));
+  EXPECT_EQ(json["fit"], true);
+  EXPECT_EQ(json["restitution_scale"], 0.7);
+  EXPECT_EQ(json["cases"][0]["restitution"], fitted->cases.at(0).restitution);
+}
+
 TEST_F(EvaluationSet, StopsWhenAsked) {
   add("d6/a.signature.json", "{}");
   const std::atomic<bool> stop{true};
@@ -192,11 +210,13 @@ TEST(EvaluationReport, TellsTheSameInMarkdownAndJson) {
   Evaluation evaluation;
   evaluation.cases = {solvedCase(3, 0.8, 0.5, 1)};
   evaluation.cases[0].failure = "a | b\nc";
+  evaluation.cases[0].givenRestitution = 0.5;
+  evaluation.cases[0].restitution = 0.625;
   evaluation.rows = {summarize("d6", evaluation.cases)};
   evaluation.total = summarize("all", evaluation.cases);
   const std::string markdown = evaluationMarkdown(evaluation, true);
   EXPECT_THAT(markdown, HasSubstr("| d6 | none | 1 | 3.0 | 1/1 (100 %) | 1.00 | 0.800 |"));
-  EXPECT_THAT(markdown, HasSubstr("| a / b c |"));
+  EXPECT_THAT(markdown, HasSubstr("| 0.62 for 0.50 | a / b c |"));
   EXPECT_THAT(evaluationMarkdown(evaluation, false), testing::Not(HasSubstr("| case |")));
   const auto json = nlohmann::json::parse(evaluationJson(evaluation));
   EXPECT_EQ(json["format"], "inverse-foley-evaluation");

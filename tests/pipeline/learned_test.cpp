@@ -83,6 +83,20 @@ TEST_F(LearnObject, MeasuresTheReferenceImpulseThatAnObjectLacks) {
   EXPECT_NEAR(learn({}).referenceImpulse, calibrated, 0.1 * calibrated);
 }
 
+TEST_F(LearnObject, KeepsWhatRestitutionsSoundLike) {
+  const auto learnSounds = [&](const fs::path& cache) {
+    return learnRestitution(die_, surface_, cache, Progress()).coefficients();
+  };
+  const auto first = learnSounds(folder_.path()), second = learnSounds(folder_.path());
+  EXPECT_EQ(first.weights, second.weights);
+  EXPECT_EQ(first.spread, second.spread);
+  auto json = nlohmann::json::parse(readFile(onlyFile(), 1 << 16).value());
+  json["spread"] = 0.625;
+  ASSERT_TRUE(writeFileAtomically(onlyFile(), json.dump()));
+  EXPECT_EQ(learnSounds(folder_.path()).spread, 0.625);
+  EXPECT_EQ(learnSounds({}).weights, first.weights);
+}
+
 TEST_F(LearnObject, DoesWithoutACacheThatCannotBeWritten) {
   test::writeText(folder_ / "file", "in the way");
   expectSame(learn(folder_ / "file"), learn({}));

@@ -48,7 +48,7 @@ TEST_F(Synchronize, FindsAMotionForASignature) {
 
 TEST_F(Synchronize, RefusesSettingsThatMakeNoSense) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  std::vector<SynchronizeSettings> all(7, settings_);
+  std::vector<SynchronizeSettings> all(11, settings_);
   all[0].takes = 0;
   all[1].takes = kMaxTakes + 1;
   all[2].timeLimitSeconds = nan;
@@ -56,10 +56,31 @@ TEST_F(Synchronize, RefusesSettingsThatMakeNoSense) {
   all[4].preRollSeconds = std::numeric_limits<double>::infinity();
   all[5].planner = "hybrid";
   all[6].graph.earlyExit = nan;
+  all[7].restitution = 0.96;
+  all[8].restitution = nan;
+  all[9].restitutionScale = 0;
+  all[10].fit = true;
+  all[10].planner = "graph";
   for (const auto& settings : all) {
     const auto result = synchronize(settings);
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().code, ErrorCode::kUsage) << result.error().text();
+  }
+}
+
+TEST_F(Synchronize, FitsTheRestitution) {
+  settings_.fit = true;
+  settings_.restitutionScale = 0.7;
+  const auto result = synchronize(settings_);
+  ASSERT_TRUE(result) << result.error().text();
+  const Motion& motion = result->takes.front();
+  EXPECT_TRUE(motion.success) << motion.failure;  // its audit holds
+  ASSERT_TRUE(motion.given);
+  EXPECT_EQ(motion.given->surface, "desk");
+  EXPECT_NEAR(motion.given->restitution, 0.7 * 0.338, 1e-9);
+  for (const MotionContact& contact : motion.contacts) {
+    EXPECT_NEAR(contact.restitution, motion.object.restitution,
+                0.2 * motion.object.restitution + 1e-9);
   }
 }
 

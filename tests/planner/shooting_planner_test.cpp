@@ -193,10 +193,51 @@ TEST(ShootingPlannerTest, TakesAreDifferentAndBestFirst) {
     EXPECT_TRUE(plans[i].solved);
     expectSound(request, plans[i]);
     for (std::size_t j = 0; j < i; ++j) {
-      EXPECT_TRUE(differentPaths(plans[i], plans[j]));
+      EXPECT_TRUE(differentTakes(plans[i], plans[j]));
       EXPECT_LE(plans[i].score, plans[j].score);
     }
   }
+}
+
+TEST(ShootingPlannerTest, TakesKnowTheGroupOfTheBody) {
+  PlanRequest request = dieRequest(easy());
+  request.settings.takes = 6;
+  // A half turn of a die about its axes, and the mirror across one of them.
+  for (const double x : {1, -1}) {
+    for (const double z : {1, -1}) {
+      request.symmetry.emplace_back(Eigen::Vector3d(x, x * z, z).asDiagonal());
+      request.symmetry.emplace_back(Eigen::Vector3d(-x, x * z, z).asDiagonal());
+    }
+  }
+  const auto plans = plansOf(request);
+  EXPECT_GT(plans.size(), 1U);
+  for (std::size_t i = 0; i < plans.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_TRUE(differentTakes(plans[i], plans[j], request.symmetry));
+    }
+  }
+}
+
+TEST(ShootingPlannerTest, TheBestOfSeveralTakesIsTheOneThatIsFoundAlone) {
+  PlanRequest request = dieRequest(easy());
+  const auto one = plansOf(request);
+  ASSERT_EQ(one.size(), 1U);
+  request.settings.takes = 4;
+  EXPECT_TRUE(samePlan(one[0], plansOf(request)[0]));
+  // More than the first pass finds: a later one may find a better one, never a worse.
+  request.settings.takes = 32;
+  const auto many = plansOf(request);
+  EXPECT_GE(many[0].score, one[0].score);
+  EXPECT_GT(many.size(), 4U);
+}
+
+TEST(ShootingPlannerTest, ABudgetUnderOnePassIsANarrowPass) {
+  PlanRequest request = dieRequest(test::signatures(test::die(), 1, 5, 9).front());
+  const Plan whole = plansOf(request).front();
+  request.settings.effort = 0.02;
+  const Plan narrow = plansOf(request).front();
+  expectSound(request, narrow);
+  EXPECT_FALSE(samePlan(whole, narrow));
 }
 
 TEST(ShootingPlannerTest, AGapThatNothingCanFlyThroughFailsAndSaysWhere) {
