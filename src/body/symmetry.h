@@ -31,7 +31,8 @@ class SymmetryGroup {
 
   /// Rotations first, the identity before all. Principal frame, about the centre of mass; products
   /// of elements are elements, to the last few bits.
-  [[nodiscard]] const std::vector<Eigen::Matrix3d>& elements() const { return elements_; }
+  [[nodiscard]] const std::vector<Eigen::Matrix3d>& elements() const& { return elements_; }
+  [[nodiscard]] const std::vector<Eigen::Matrix3d>& elements() const&& = delete;
   [[nodiscard]] std::size_t order() const { return elements_.size(); }
   /// How many are rotations; the others are improper (rotations with a reflection).
   [[nodiscard]] std::size_t rotations() const { return rotations_; }

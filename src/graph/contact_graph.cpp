@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "graph/best_list.h"
@@ -12,10 +13,43 @@
 namespace ifa {
 
 struct ContactGraph::Parts {
+  Parts(EventDatabase from, const Body& of, const GraphSettings& how, EventTree onwardTree,
+        EventTree endingTree, SymmetryGroup group)
+      : database(std::move(from)),
+        body(of),
+        settings(how),
+        onward(std::move(onwardTree)),
+        ending(std::move(endingTree)),
+        symmetry(std::move(group)),
+        folding(symmetry) {
+    for (std::size_t i = 0; i < symmetry.order(); ++i) {
+      images.push_back(SymmetryImage::of(symmetry.elements()[i]));
+      undoing.push_back(symmetry.inverse(i));
+    }
+  }
+
+  /// The source as the image of an event under `element` sees it: the image is like the source
+  /// where the event is like this.
+  [[nodiscard]] TransitionSource seenFrom(const TransitionSource& source,
+                                          std::size_t element) const {
+    const SymmetryImage& image = images[undoing[element]];
+    return {image.apply(source.before), image.apply(source.after)};
+  }
+  /// For every element.
+  [[nodiscard]] std::vector<TransitionSource> seenFromAll(const TransitionSource& source) const {
+    std::vector<TransitionSource> all;
+    for (std::size_t i = 0; i < images.size(); ++i) all.push_back(seenFrom(source, i));
+    return all;
+  }
+
   EventDatabase database;
   Body body;
   GraphSettings settings;
   EventTree onward, ending;
+  SymmetryGroup symmetry;
+  Folding folding;
+  std::vector<SymmetryImage> images;  ///< of the group's elements
+  std::vector<std::size_t> undoing;   ///< their inverses
 };
 
 ContactGraph::ContactGraph(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -29,7 +63,8 @@ Result<ContactGraph> ContactGraph::make(EventDatabase database, const Body& body
   if (database.events() > std::numeric_limits<std::uint32_t>::max() - 1)
     return badInput("has too many events to search", database.path().string());
   progress("index", 0);
-  auto events = treeEvents(database, progress);
+  SymmetryGroup symmetry = settings.symmetry ? findSymmetry(body) : SymmetryGroup();
+  auto events = treeEvents(database, symmetry, progress);
   if (!events) return tl::unexpected(events.error());
   progress("index", 0.2);
   const TreeScales scales = treeScales(database, settings.affinity);
@@ -37,8 +72,9 @@ Result<ContactGraph> ContactGraph::make(EventDatabase database, const Body& body
   progress("index", 0.9);
   EventTree ending(std::move(events->ending), scales);
   progress("index", 1);
-  return ContactGraph(std::make_unique<Parts>(
-      Parts{std::move(database), body, settings, std::move(onward), std::move(ending)}));
+  return ContactGraph(std::make_unique<Parts>(std::move(database), body, settings,
+                                              std::move(onward), std::move(ending),
+                                              std::move(symmetry)));
 }
 
 const EventTree& ContactGraph::tree(bool terminal) const {
@@ -51,16 +87,23 @@ std::vector<Transition> ContactGraph::best(const TransitionSource& source,
   if (!(target.time > 0) || count == 0) return {};
   const Parts& p = *parts_;
   const EventTree& tree = target.terminal ? p.ending : p.onward;
-  const EdgeWeigher weigher(p.database, p.body, p.settings, source, target);
-  auto finds =
-      tree.find(TreeQuery(p.body, p.settings, source, target), count, p.settings.mostLeaves);
+  const std::vector<TransitionSource> sources = p.seenFromAll(source);
+  std::vector<TreeQuery> queries;
+  for (const TransitionSource& seen : sources)
+    queries.emplace_back(p.body, p.settings, seen, target);
+  auto finds = tree.find(queries, count, p.settings.mostLeaves);
   // Equal weights keep the order of their events.
   std::sort(finds.begin(), finds.end(),
             [](const TreeFind& a, const TreeFind& b) { return a.sibling < b.sibling; });
   BestList<Transition> best(count);
   for (const TreeFind& find : finds) {
-    const EdgeWeight weight = weigher.weigh(find.sibling);
-    if (weight.exists()) best.add({find.sibling, weight, weight.total()});
+    // The tree has an image of the event; the query found an image of that.
+    const std::size_t fold = p.folding.elementOf(p.database, find.sibling);
+    const std::size_t element = p.symmetry.product(fold, find.query);
+    const EdgeWeight weight =
+        EdgeWeigher(p.database, p.body, p.settings, sources[element], target).weigh(find.sibling);
+    if (weight.exists())
+      best.add({find.sibling, weight, weight.total(), static_cast<std::uint32_t>(element)});
   }
   return best.take();
 }
@@ -69,19 +112,28 @@ std::vector<Transition> ContactGraph::bestByScan(const TransitionSource& source,
                                                  const TransitionTarget& target,
                                                  std::size_t count) const {
   const Parts& p = *parts_;
-  const EdgeWeigher weigher(p.database, p.body, p.settings, source, target);
+  const std::vector<TransitionSource> sources = p.seenFromAll(source);
+  std::vector<EdgeWeigher> weighers;
+  for (const TransitionSource& seen : sources)
+    weighers.emplace_back(p.database, p.body, p.settings, seen, target);
   BestList<Transition> best(count);
-  for (std::size_t j = 0; j < p.database.events(); ++j) {
-    const EdgeWeight weight = weigher.weigh(j, best.least());
-    if (weight.exists()) best.add({static_cast<std::uint32_t>(j), weight, weight.total()});
+  for (std::uint32_t j = 0; j < p.database.events(); ++j) {
+    std::optional<Transition> edge;
+    for (std::uint32_t image = 0; image < weighers.size(); ++image) {
+      const EdgeWeight weight = weighers[image].weigh(j, edge ? edge->total : best.least());
+      if (weight.exists() && !(edge && weight.total() <= edge->total))
+        edge = {j, weight, weight.total(), image};
+    }
+    if (edge) best.add(*edge);
   }
   return best.take();
 }
 
 EdgeWeight ContactGraph::edgeWeight(const TransitionSource& source, const TransitionTarget& target,
-                                    std::uint32_t sibling) const {
-  return EdgeWeigher(parts_->database, parts_->body, parts_->settings, source, target)
-      .weigh(sibling);
+                                    std::uint32_t sibling, std::size_t symmetry) const {
+  const Parts& p = *parts_;
+  const TransitionSource seen = p.seenFrom(source, symmetry);
+  return EdgeWeigher(p.database, p.body, p.settings, seen, target).weigh(sibling);
 }
 
 std::vector<PathStart> ContactGraph::bestStarts(double time, const HeardEvent& first,
@@ -158,6 +210,10 @@ HeardEvent ContactGraph::heard(std::uint32_t event, double firstAmplitude) const
 
 const EventDatabase& ContactGraph::database() const { return parts_->database; }
 const GraphSettings& ContactGraph::settings() const { return parts_->settings; }
+const SymmetryGroup& ContactGraph::symmetry() const { return parts_->symmetry; }
+const SymmetryImage& ContactGraph::image(std::size_t element) const {
+  return parts_->images[element];
+}
 std::size_t ContactGraph::indexBytes() const {
   return parts_->onward.bytes() + parts_->ending.bytes();
 }

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "base/progress.h"
+#include "body/symmetry.h"
+#include "connection/placement.h"
 #include "database/database.h"
 #include "graph/edge_weight.h"
 #include "ifa/result.h"
@@ -23,6 +25,9 @@ struct Transition {
   std::uint32_t sibling = 0;  ///< event j of the database, most like the source
   EdgeWeight weight;
   double total = 0;  ///< weight.total()
+  /// Element of the body's symmetry group whose image of j, and of what followed it, is meant: of
+  /// all the one that weighs most.
+  std::uint32_t symmetry = 0;
 
   /// The event that the edge leads to, k = j + 1.
   [[nodiscard]] std::uint32_t event() const { return sibling + 1; }
@@ -70,8 +75,10 @@ class ContactGraph {
                                                    const TransitionTarget& target,
                                                    std::size_t count) const;
   /// Weight of the edge to sibling + 1. @param sibling  under database().events()
+  /// @param symmetry  element of the group whose image of the sibling is meant; 0: itself
   [[nodiscard]] EdgeWeight edgeWeight(const TransitionSource& source,
-                                      const TransitionTarget& target, std::uint32_t sibling) const;
+                                      const TransitionTarget& target, std::uint32_t sibling,
+                                      std::size_t symmetry = 0) const;
 
   /// First edges of a path of two events or more (5.5), best first by total, equal ones by event;
   /// exact. T* is `time` less the first event's own duration; the first event's amplitude is what
@@ -96,6 +103,10 @@ class ContactGraph {
 
   [[nodiscard]] const EventDatabase& database() const;
   [[nodiscard]] const GraphSettings& settings() const;
+  /// The group that events are matched under; C1 where that is turned off.
+  [[nodiscard]] const SymmetryGroup& symmetry() const;
+  /// How an event is seen as its image under an element of that group.
+  [[nodiscard]] const SymmetryImage& image(std::size_t element) const;
   /// Bytes kept besides the mapped database.
   [[nodiscard]] std::size_t indexBytes() const;
   /// The tree of the flights to terminal events, or that of all others: to measure.

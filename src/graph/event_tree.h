@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "graph/tree_query.h"
@@ -31,10 +32,12 @@ struct TreeScales {
 struct TreeFind {
   float total = 0;
   std::uint32_t sibling = 0;
+  std::uint32_t query = 0;  ///< of those that were asked together
 
   /// Better first.
   bool operator<(const TreeFind& other) const {
-    return total != other.total ? total > other.total : sibling < other.sibling;
+    if (total != other.total) return total > other.total;
+    return sibling != other.sibling ? sibling < other.sibling : query < other.query;
   }
 };
 
@@ -49,6 +52,12 @@ class EventTree {
   /// The best `count` finds, and some that may be as good, best first. Looks into at most
   /// `mostLeaves` leaves (0: all that may hold one), the most promising first.
   [[nodiscard]] std::vector<TreeFind> find(const TreeQuery& query, std::size_t count,
+                                           std::size_t mostLeaves) const {
+    return find(std::span(&query, 1), count, mostLeaves);
+  }
+  /// The best of several queries together, each sibling once, with the query that suits it best.
+  /// @param mostLeaves  of all queries together; a leaf counts once for each that looks into it
+  [[nodiscard]] std::vector<TreeFind> find(std::span<const TreeQuery> queries, std::size_t count,
                                            std::size_t mostLeaves) const;
   /// The same by looking into every leaf, one after another: as fast as all can be read.
   [[nodiscard]] std::vector<TreeFind> scan(const TreeQuery& query, std::size_t count) const;

@@ -35,6 +35,9 @@ struct GraphSettings {
   /// Most leaves of 32 events that a search looks into; 0: as many as its bounds ask for. Effect:
   /// fewer are faster and miss more (docs/neighbours.md).
   std::size_t mostLeaves = 2000;
+  /// Each event also stands for its images under the body's symmetry group (docs/symmetry.md).
+  /// Effect: off, the database is what it is, as in the paper.
+  bool symmetry = true;
 };
 
 }  // namespace ifa

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "base/parallel.h"
 #include "graph/edge_weight.h"
@@ -28,7 +30,8 @@ RigidState leaving(const EventDatabase& database, std::size_t event) {
   return unpack(packed);
 }
 
-TreeEvent treeEvent(const EventDatabase& database, std::size_t j) {
+TreeEvent treeEvent(const EventDatabase& database, const SymmetryGroup& group,
+                    const Folding& folding, std::size_t j) {
   const auto value = [&](Column column, std::size_t event) -> double {
     return database.values(column)[event];
   };
@@ -43,9 +46,12 @@ TreeEvent treeEvent(const EventDatabase& database, std::size_t j) {
     for (int i = 0; i < 3; ++i)
       event.values[column + static_cast<std::size_t>(i)] = static_cast<float>(v[i]);
   };
-  set(kUpX, inverse * Vector3d::UnitZ());
-  set(kFlightX, inverse * way / time);
-  set(kSpinX, inverse * state.angularVelocity);
+  const Vector3d up = inverse * Vector3d::UnitZ();
+  const std::size_t element = folding.elementOf(up);
+  const Eigen::Matrix3d fold = group.elements()[element].transpose();
+  set(kUpX, fold * up);
+  set(kFlightX, fold * (inverse * way) / time);
+  set(kSpinX, (group.isRotation(element) ? 1 : -1) * (fold * (inverse * state.angularVelocity)));
   event.values[kTime] = static_cast<float>(time);
   event.values[kHeardLoud] = static_cast<float>(heard.amplitude);
   event.values[kHeardDuration] = static_cast<float>(heard.duration);
@@ -63,7 +69,30 @@ int treeOf(std::span<const std::uint8_t> flags, std::span<const float> gaps, std
 
 }  // namespace
 
-Result<TreeEvents> treeEvents(const EventDatabase& database, const Progress& progress) {
+Folding::Folding(const SymmetryGroup& group) {
+  // Any direction will do that no element leaves alone.
+  const Vector3d direction = Vector3d(0.37, 0.54, 0.755).normalized();
+  for (const Eigen::Matrix3d& element : group.elements())
+    directions_.emplace_back(element * direction);
+}
+
+std::size_t Folding::elementOf(const Vector3d& up) const {
+  std::size_t best = 0;
+  double nearest = -2;
+  for (std::size_t i = 0; i < directions_.size(); ++i) {
+    const double cosine = directions_[i].dot(up);
+    if (cosine > nearest) std::tie(best, nearest) = std::pair(i, cosine);
+  }
+  return best;
+}
+
+std::size_t Folding::elementOf(const EventDatabase& database, std::size_t event) const {
+  return elementOf(leaving(database, event).orientation.conjugate() * Vector3d::UnitZ());
+}
+
+Result<TreeEvents> treeEvents(const EventDatabase& database, const SymmetryGroup& group,
+                              const Progress& progress) {
+  const Folding folding(group);
   const auto flags = database.flags();
   const auto gaps = database.values(kGap);
   const std::size_t blocks = (flags.size() + kBlock - 1) / kBlock;
@@ -91,7 +120,7 @@ Result<TreeEvents> treeEvents(const EventDatabase& database, const Progress& pro
     if (progress.stopRequested()) return;
     auto place = places[block];
     each(block, [&](std::size_t tree, std::size_t j) {
-      (*trees[tree])[place[tree]++] = treeEvent(database, j);
+      (*trees[tree])[place[tree]++] = treeEvent(database, group, folding, j);
     });
   });
   if (progress.stopRequested())

@@ -186,18 +186,17 @@ class Builder {
   }
 
   void arrivalChange(const PlannedContact& planned, MotionContact& c) const {
-    const Eigen::Quaterniond turn = planned.placement.turn();
+    const Placement& placement = planned.placement;
     const Eigen::Matrix3d inertia = inertiaAt(planned.event.before.orientation);
-    c.arrivalImpulseChange = turn * (request_.body->mass * planned.arrivalChange);
-    c.arrivalAngularChange = turn * (inertia * planned.arrivalAngularChange);
+    c.arrivalImpulseChange = placement.direction(request_.body->mass * planned.arrivalChange);
+    c.arrivalAngularChange = placement.axial(inertia * planned.arrivalAngularChange);
   }
 
   /// The impulse and angular impulse that were added where the edge to this contact begins.
   void change(const PlannedContact& from, MotionContact& c) const {
-    const Eigen::Quaterniond turn = from.placement.turn();
     const Eigen::Matrix3d inertia = inertiaAt(from.event.after.orientation);
-    c.impulseChange = turn * (request_.body->mass * from.velocityChange);
-    c.angularChange = turn * (inertia * from.angularVelocityChange);
+    c.impulseChange = from.placement.direction(request_.body->mass * from.velocityChange);
+    c.angularChange = from.placement.axial(inertia * from.angularVelocityChange);
   }
 
   const PlanRequest& request_;

@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "connection/registration.h"
+#include "connection/placement.h"
 #include "dynamics/stepper.h"
 #include "ifa/motion.h"
 
@@ -16,7 +16,7 @@ class TrajectoryWriter {
   TrajectoryWriter(const Body& body, const BodyModel& model, Motion& motion);
 
   /// From now on states are seen from a frame that `placement` lays into the motion's world.
-  void place(const PlanarTransform& placement) { placement_ = placement; }
+  void place(const Placement& placement) { placement_ = placement; }
   /// A state, with the velocities it has when it is shown `stretch` times slower.
   void sample(const KernelState<double>& state, double time, double stretch = 1);
   /// The same with no velocity: a body at rest.
@@ -38,7 +38,7 @@ class TrajectoryWriter {
 
   BodyModel const& model_;
   Motion& motion_;
-  PlanarTransform placement_;
+  Placement placement_;
   Eigen::Quaterniond principalFromBody_;
 };
 

@@ -59,6 +59,7 @@ GraphSettings GraphShelf::graphSettings() const {
   if (options_.printedVelocity) settings.velocityReference = VelocityReference::kPrinted;
   if (options_.timeWarp) settings.connection = ConnectionKind::kBlend;
   settings.energyGain = energyGain_;
+  settings.symmetry = options_.symmetry;
   return settings;
 }
 

@@ -51,15 +51,18 @@ class PlanMaker {
   /// The edge that leaves the event of `level`, and the event that it reaches.
   void follow(int level) {
     const GraphEdge& step = path_.edges[static_cast<std::size_t>(level)];
-    const ConnectedEdge& edge = connector_.edge(level, path_.event(level), step.sibling, step.time);
+    const ConnectedEdge& edge =
+        connector_.edge(level, path_.event(level), step.sibling, step.symmetry, step.time);
     PlannedContact& from = plan_.contacts.back();
     from.velocityChange = edge.connection.departure.velocity - from.event.after.velocity;
     from.angularVelocityChange =
         edge.connection.departure.angularVelocity - from.event.after.angularVelocity;
-    const PlanarTransform placement = from.placement.after(edge.placement);
+    const Placement placement = from.placement.after(edge.placement);
+    const auto image = static_cast<std::size_t>(from.source.symmetry);
     add(level + 1);
     PlannedContact& to = plan_.contacts.back();
     to.placement = placement;
+    to.source.symmetry = static_cast<int>(graph_.symmetry().product(step.symmetry, image));
     to.arrivalChange = to.event.before.velocity - edge.arrival.velocity;
     to.arrivalAngularChange = to.event.before.angularVelocity - edge.arrival.angularVelocity;
     to.bend = edge.bend;

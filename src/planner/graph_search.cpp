@@ -137,7 +137,7 @@ void GraphSearch::descend(GraphPath& path, int depth, double total) {
     if (banned(path, next.sibling)) continue;
     ++followed;
     if (total + next.total + (depth > 1 ? child.bound : 0) <= bestTotal_) continue;
-    path.edges.push_back({next.sibling, timeAfter(path), next.weight});
+    path.edges.push_back({next.sibling, timeAfter(path), next.weight, next.symmetry});
     descend(path, depth - 1, total + next.total);
     path.edges.pop_back();
   }
@@ -183,16 +183,16 @@ bool GraphSearch::connects(const GraphPath& path, int level) {
   const auto index = static_cast<std::size_t>(level);
   const GraphEdge& edge = path.edges[index];
   const std::uint32_t event = path.event(level);
-  const ConnectedEdge& made = connector_.edge(level, event, edge.sibling, edge.time);
+  const ConnectedEdge& made = connector_.edge(level, event, edge.sibling, edge.symmetry, edge.time);
   bool good = made.feasible;
   if (!good) {
     noFlight_.insert({level, event, edge.sibling});
   } else {
     const GraphEdge* before = level == 0 ? nullptr : &path.edges[index - 1];
     const ConnectedEdge* arrival =
-        before == nullptr
-            ? nullptr
-            : &connector_.edge(level - 1, path.event(level - 1), before->sibling, before->time);
+        before == nullptr ? nullptr
+                          : &connector_.edge(level - 1, path.event(level - 1), before->sibling,
+                                             before->symmetry, before->time);
     good = connector_.energyAllows(event, arrival, made);
     if (!good) noTurn_.insert(turn(path, level, edge.sibling));
   }

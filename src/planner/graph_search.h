@@ -25,6 +25,7 @@ struct GraphEdge {
   std::uint32_t sibling = 0;
   double time = 0;  ///< T*, s
   EdgeWeight weight;
+  std::uint32_t symmetry = 0;  ///< Transition::symmetry
 };
 
 /// A walk through the graph that meets the signature's first events.

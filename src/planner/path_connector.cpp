@@ -77,20 +77,22 @@ void PathConnector::weigh(std::uint32_t from, std::uint32_t sibling, double time
   edge.logTimeWarp = logTimeWarp(time, edge.connection.time.flightTime, settings.affinity);
 }
 
-ConnectedEdge PathConnector::make(std::uint32_t from, std::uint32_t sibling, double time) {
+ConnectedEdge PathConnector::make(std::uint32_t from, std::uint32_t sibling, std::uint32_t symmetry,
+                                  double time) {
   ConnectedEdge edge;
   const auto [j, k] = graph_.passage(sibling);
   const ContactEvent& left = event(from);
-  edge.connection =
-      connect(model_, {left.after, j.after, k.before, k.start - j.end, !left.touchingAfter}, time,
-              connection_);
+  const SymmetryImage& image = graph_.image(symmetry);
+  const RigidState target = image.apply(k.before);
+  edge.connection = connect(
+      model_, {left.after, image.apply(j.after), target, k.start - j.end, !left.touchingAfter},
+      time, connection_);
   if (!edge.connection.made()) return edge;
   const PlanarTransform& registered = edge.connection.registration.transform;
-  edge.placement = registered.after(shiftTo(k.before));
+  edge.placement = {registered.after(shiftTo(target)), image};
   edge.arrival = event(sibling + 1).before;
-  const Eigen::Quaterniond back = edge.placement.turn().conjugate();
-  edge.arrival.velocity = back * edge.connection.arrival.velocity;
-  edge.arrival.angularVelocity = back * edge.connection.arrival.angularVelocity;
+  edge.arrival.velocity = edge.placement.directionFrom(edge.connection.arrival.velocity);
+  edge.arrival.angularVelocity = edge.placement.axialFrom(edge.connection.arrival.angularVelocity);
   weigh(from, sibling, time, edge);
   edge.feasible =
       edge.logVelocity > graph_.settings().leastVelocity && reachable(sibling + 1, edge);
@@ -98,11 +100,11 @@ ConnectedEdge PathConnector::make(std::uint32_t from, std::uint32_t sibling, dou
 }
 
 const ConnectedEdge& PathConnector::edge(int level, std::uint32_t from, std::uint32_t sibling,
-                                         double time) {
-  const auto key = std::tuple(level, from, sibling);
+                                         std::uint32_t symmetry, double time) {
+  const auto key = std::tuple(level, from, sibling, symmetry);
   const auto known = edges_.find(key);
   if (known != edges_.end()) return known->second;
-  return edges_.emplace(key, make(from, sibling, time)).first->second;
+  return edges_.emplace(key, make(from, sibling, symmetry, time)).first->second;
 }
 
 bool PathConnector::energyAllows(std::uint32_t id, const ConnectedEdge* previous,

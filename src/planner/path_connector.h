@@ -20,7 +20,7 @@ namespace ifa {
 struct ConnectedEdge {
   bool feasible = false;
   Connection connection;       ///< in the frame of the event that is left
-  PlanarTransform placement;   ///< lays the reached event's frame into it
+  Placement placement;         ///< lays the reached event's frame into it
   RigidState arrival;          ///< in the reached event's frame
   double bend = 0;             ///< leaving
   double arrivalBend = 0;      ///< reaching
@@ -40,10 +40,11 @@ class PathConnector {
   /// Event `id` of the database, simulated again: in its own frame, from time 0, to the bit as its
   /// replay.
   [[nodiscard]] const ContactEvent& event(std::uint32_t id);
-  /// The edge from event `from` to sibling + 1, whose flight takes `time` seconds (T*).
+  /// The edge from event `from` to the image of sibling + 1 under element `symmetry`, whose flight
+  /// takes `time` seconds (T*).
   /// @param level  index of the signature's event that `from` meets: it fixes the time
   [[nodiscard]] const ConnectedEdge& edge(int level, std::uint32_t from, std::uint32_t sibling,
-                                          double time);
+                                          std::uint32_t symmetry, double time);
   /// Eq. 10 as it is seen: the body leaves by `next` with no more energy than it came with.
   /// @param previous  the edge that it came by; null for the first event
   [[nodiscard]] bool energyAllows(std::uint32_t event, const ConnectedEdge* previous,
@@ -52,7 +53,8 @@ class PathConnector {
   [[nodiscard]] PlausibleRegion regionOf(std::uint32_t event);
 
  private:
-  [[nodiscard]] ConnectedEdge make(std::uint32_t from, std::uint32_t sibling, double time);
+  [[nodiscard]] ConnectedEdge make(std::uint32_t from, std::uint32_t sibling,
+                                   std::uint32_t symmetry, double time);
   void weigh(std::uint32_t from, std::uint32_t sibling, double time, ConnectedEdge& edge);
   [[nodiscard]] bool reachable(std::uint32_t id, const ConnectedEdge& edge);
 
@@ -62,7 +64,7 @@ class PathConnector {
   EventChain chain_;
   ConnectionSettings connection_;
   std::unordered_map<std::uint32_t, ContactEvent> events_;
-  std::map<std::tuple<int, std::uint32_t, std::uint32_t>, ConnectedEdge> edges_;
+  std::map<std::tuple<int, std::uint32_t, std::uint32_t, std::uint32_t>, ConnectedEdge> edges_;
 };
 
 }  // namespace ifa

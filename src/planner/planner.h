@@ -13,7 +13,7 @@
 #include "affinity/factors.h"
 #include "base/progress.h"
 #include "body/body.h"
-#include "connection/registration.h"
+#include "connection/placement.h"
 #include "graph/contact_graph.h"
 #include "ifa/contact_signature.h"
 #include "ifa/motion.h"
@@ -63,11 +63,11 @@ struct PlanRequest {
 
 /// One contact of a plan: the event as simulated, and the change of velocity that leads out of it.
 struct PlannedContact {
-  int target = 0;             ///< index of the signature's event that it meets
-  ContactEvent event;         ///< in its own simulation's time and frame; `before` starts it
-  PlanarTransform placement;  ///< lays that frame into the plan's world
-  double time = 0;            ///< start in the plan, s after the first contact
-  double restitution = 0;     ///< used inside this event
+  int target = 0;          ///< index of the signature's event that it meets
+  ContactEvent event;      ///< in its own simulation's time and frame; `before` starts it
+  Placement placement;     ///< lays that frame into the plan's world, and says which image is seen
+  double time = 0;         ///< start in the plan, s after the first contact
+  double restitution = 0;  ///< used inside this event
   /// Added to `event.after` before the flight (or silent contact) to the next contact. In the
   /// event's frame, as the next one.
   Eigen::Vector3d velocityChange = Eigen::Vector3d::Zero();         ///< m/s

@@ -59,7 +59,9 @@ TEST_F(ContactGraphTest, FindsWhatAFullScanFindsSlow) {
 
 /// Every leaf looked into: what is left is the weight in single precision.
 TEST_F(ContactGraphTest, SinglePrecisionRanksAsDouble) {
-  const ContactGraph graph = graphOf(drops(), body(), wide());
+  GraphSettings plain = wide();
+  plain.symmetry = false;
+  const ContactGraph graph = graphOf(drops(), body(), plain);
   for (const Question& q : asked()) {
     std::vector<Transition> best;
     const TreeQuery query(body(), graph.settings(), q.source, q.target);
@@ -83,8 +85,13 @@ TEST_F(ContactGraphTest, ScanIsEveryEdgeWeighed) {
   for (const Question& q : asked()) {
     std::vector<Transition> all;
     for (std::uint32_t j = 0; j < graph.database().events(); ++j) {
-      const EdgeWeight weight = graph.edgeWeight(q.source, q.target, j);
-      if (weight.exists()) all.push_back({j, weight, weight.total()});
+      std::optional<Transition> heaviest;
+      for (std::uint32_t s = 0; s < graph.symmetry().order(); ++s) {
+        const EdgeWeight weight = graph.edgeWeight(q.source, q.target, j, s);
+        if (weight.exists() && !(heaviest && weight.total() <= heaviest->total))
+          heaviest = {j, weight, weight.total(), s};
+      }
+      if (heaviest) all.push_back(*heaviest);
     }
     std::stable_sort(all.begin(), all.end(),
                      [](const Transition& a, const Transition& b) { return a.total > b.total; });
@@ -134,7 +141,7 @@ TEST_F(ContactGraphTest, LeadsByFlightToWhatWasAskedFor) {
 /// Both trees hold each flight once.
 TEST_F(ContactGraphTest, TreesHoldEveryFlight) {
   const EventDatabase database = drops().open();
-  const auto events = treeEvents(database, {});
+  const auto events = treeEvents(database, {}, {});
   ASSERT_TRUE(events);
   std::vector<std::uint32_t> expected, held;
   for (std::uint32_t j = 0; j < database.events(); ++j) {

@@ -44,6 +44,7 @@ inline void expectSame(const std::vector<Transition>& a, const std::vector<Trans
   for (std::size_t i = 0; i < a.size(); ++i) {
     EXPECT_EQ(a[i].sibling, b[i].sibling);
     EXPECT_EQ(a[i].total, b[i].total);
+    EXPECT_EQ(a[i].symmetry, b[i].symmetry);
   }
 }
 

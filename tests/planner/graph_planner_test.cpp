@@ -104,7 +104,8 @@ std::vector<double> scoresOf(const PlanRequest& request) {
     double total = path->sound.total();
     for (int level = 0; level < path->last(); ++level) {
       const GraphEdge& step = path->edges[static_cast<std::size_t>(level)];
-      const auto& made = connector.edge(level, path->event(level), step.sibling, step.time);
+      const auto& made =
+          connector.edge(level, path->event(level), step.sibling, step.symmetry, step.time);
       total += made.logVelocity + made.logOrientation + made.logTimeWarp;
       total += step.weight.amplitude + step.weight.duration + step.weight.centroid;
     }
@@ -147,10 +148,12 @@ void expectSamePlan(const Plan& a, const Plan& b) {
     EXPECT_EQ(x.angularVelocityChange, y.angularVelocityChange);
     EXPECT_EQ(x.arrivalChange, y.arrivalChange);
     EXPECT_EQ(x.arrivalAngularChange, y.arrivalAngularChange);
-    EXPECT_EQ(x.placement.x, y.placement.x);
-    EXPECT_EQ(x.placement.y, y.placement.y);
-    EXPECT_EQ(x.placement.halfCosine, y.placement.halfCosine);
-    EXPECT_EQ(x.placement.halfSine, y.placement.halfSine);
+    EXPECT_EQ(x.source.symmetry, y.source.symmetry);
+    EXPECT_EQ(x.placement.image.mirrored, y.placement.image.mirrored);
+    EXPECT_EQ(x.placement.plane.x, y.placement.plane.x);
+    EXPECT_EQ(x.placement.plane.y, y.placement.plane.y);
+    EXPECT_EQ(x.placement.plane.halfCosine, y.placement.plane.halfCosine);
+    EXPECT_EQ(x.placement.plane.halfSine, y.placement.plane.halfSine);
     EXPECT_EQ(x.event.after.position, y.event.after.position);
     EXPECT_EQ(x.event.after.velocity, y.event.after.velocity);
   }

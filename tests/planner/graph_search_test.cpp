@@ -52,7 +52,7 @@ class Oracle {
     for (int level = 0; level < path.last(); ++level) {
       const GraphEdge& step = path.edges[static_cast<std::size_t>(level)];
       const ConnectedEdge& edge =
-          connector_.edge(level, path.event(level), step.sibling, step.time);
+          connector_.edge(level, path.event(level), step.sibling, step.symmetry, step.time);
       if (!edge.feasible) return false;
       if (!connector_.energyAllows(path.event(level), previous, edge)) return false;
       previous = &edge;
@@ -83,7 +83,7 @@ class Oracle {
     const double time = timeAfter(path);
     for (const Transition& edge : graph_.bestByScan(
              {left.before, left.after}, target(next, time, path.firstAmplitude), kAll)) {
-      path.edges.push_back({edge.sibling, time, edge.weight});
+      path.edges.push_back({edge.sibling, time, edge.weight, edge.symmetry});
       follow(path);
       path.edges.pop_back();
     }
@@ -102,10 +102,10 @@ const Body& box() {
   return body;
 }
 
-/// Few enough drops for every path to be looked at.
-const DropDatabase& fewDrops() {
-  static const DropDatabase drops(box(), 12, 11);
-  return drops;
+/// Few enough drops for every path to be looked at; with their images there are many more edges.
+const DropDatabase& fewDrops(bool symmetry) {
+  static const DropDatabase drops(box(), 12, 11), fewer(box(), 5, 11);
+  return symmetry ? fewer : drops;
 }
 
 /// So much is plausible that so few drops have many paths, and paths many turns to fail at.
@@ -126,16 +126,18 @@ struct Kind {
   ConnectionKind connection;
   VelocityReference reference;
   int met, lazy, closed;  ///< no fewer signatures than these
+  bool symmetry = false;  ///< images of events are edges too
 };
 
 class GraphSearchOracle : public testing::TestWithParam<Kind> {
  protected:
-  GraphSearchOracle() : graph_(graphOf(fewDrops(), box(), settings())) {}
+  GraphSearchOracle() : graph_(graphOf(fewDrops(GetParam().symmetry), box(), settings())) {}
 
   static GraphSettings settings() {
     GraphSettings settings = manyPaths();
     settings.connection = GetParam().connection;
     settings.velocityReference = GetParam().reference;
+    settings.symmetry = GetParam().symmetry;
     return settings;
   }
   [[nodiscard]] PlanRequest request(const ContactSignature& signature) const {
@@ -217,7 +219,8 @@ TEST_P(GraphSearchOracle, TheNextPathIsTheBestFromAnotherStart) {
 TEST_P(GraphSearchOracle, NoEdgeIsBetterThanItsBoundSlow) {
   GraphSettings printed = settings();  // whose regions are slender
   printed.affinity = {};
-  const ContactGraph graph = graphOf(DropDatabase(box(), 80, 13), box(), printed);
+  const ContactGraph graph =
+      graphOf(DropDatabase(box(), printed.symmetry ? 25 : 80, 13), box(), printed);
   const NextFlight next(graph, box().radius);
   double bounds = 0, edges = 0;
   for (std::uint32_t event = 0; event < graph.database().events(); ++event) {
@@ -250,6 +253,7 @@ TEST(GraphSearchTurns, ATurnThatFailsIsOnlyThatOne) {
   const DropDatabase drops(box(), 9, 11);
   GraphSettings settings = manyPaths();
   settings.energyGain = -0.1;
+  settings.symmetry = false;
   const ContactGraph graph = graphOf(drops, box(), settings);
   for (const ContactSignature& signature : signaturesOf(graph, 5, 5, false, 105, {0.015, 0.3})) {
     const PlanRequest asked = graphRequest(box(), graphSurface(box()), graph, signature);
@@ -270,7 +274,8 @@ INSTANTIATE_TEST_SUITE_P(
         Kind{"Exact", ConnectionKind::kExact, VelocityReference::kBlend, 30, 13, 6},
         Kind{"ExactPrinted", ConnectionKind::kExact, VelocityReference::kPrinted, 30, 15, 6},
         Kind{"Blend", ConnectionKind::kBlend, VelocityReference::kBlend, 18, 3, 15},
-        Kind{"BlendPrinted", ConnectionKind::kBlend, VelocityReference::kPrinted, 18, 3, 15}),
+        Kind{"BlendPrinted", ConnectionKind::kBlend, VelocityReference::kPrinted, 18, 3, 15},
+        Kind{"Symmetric", ConnectionKind::kExact, VelocityReference::kBlend, 12, 3, 6, true}),
     [](const auto& kind) { return std::string(kind.param.name); });
 
 /// A search as it is used, on a small database.
@@ -350,7 +355,8 @@ TEST_F(GraphSearchTest, AStopEndsItAndTheFarthestPathIsKept) {
   EXPECT_GT(path.last(), 0);
   for (int level = 0; level < path.last(); ++level) {
     const GraphEdge& edge = path.edges[static_cast<std::size_t>(level)];
-    EXPECT_TRUE(connector.edge(level, path.event(level), edge.sibling, edge.time).feasible);
+    EXPECT_TRUE(
+        connector.edge(level, path.event(level), edge.sibling, edge.symmetry, edge.time).feasible);
   }
 }
 
