@@ -127,11 +127,13 @@ IFA_WIDE(WideIndex, loadIndices<Wide>, (const std::int64_t* from), v,
 IFA_WIDE(WideIndex, orZero, (const WideMask& mask, const WideIndex& index), v,
          hn::IfThenElseZero(hn::RebindMask(WideIndexTag(), mask.m[i]), index.v[i]))
     IFA_WIDE(WideIndex, indexOf, (const Wide& number), v,
-             hn::ConvertTo(WideIndexTag(), number.v[i])) template <>
-    IFA_WIDE(Wide, fromTable<Wide>, (const double* table, const WideIndex& index), v,
-             hn::GatherIndex(WideTag(), table, index.v[i]))
-    template <int kTimes>
-    HWY_INLINE WideIndex times(const WideIndex& index) {
+             hn::ConvertTo(WideIndexTag(), number.v[i]))
+        IFA_WIDE(Wide, numberOf, (const WideIndex& index), v,
+                 hn::ConvertTo(WideTag(), index.v[i])) template <>
+        IFA_WIDE(Wide, fromTable<Wide>, (const double* table, const WideIndex& index), v,
+                 hn::GatherIndex(WideTag(), table, index.v[i]))
+        template <int kTimes>
+        HWY_INLINE WideIndex times(const WideIndex& index) {
   constexpr int kShift = std::countr_zero(static_cast<unsigned>(kTimes));
   static_assert(1 << kShift == kTimes);
   WideIndex result;
