@@ -2,6 +2,8 @@
 // What a batch keeps of its simulations, whatever the instruction set that runs them.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "dynamics/batch_stepper.h"
@@ -32,13 +34,24 @@ struct BatchStepper::Data {
     bool renewed = false;  ///< another simulation was started while the last piece was told
   };
 
-  Data(const BodyModel& model, std::size_t count) : body(model), places(count, Place(model)) {}
+  /// A pile of places, with room for all of them.
+  struct Pile {
+    std::size_t size = 0;
+    std::vector<std::uint32_t> places;
+  };
 
-  void wait(std::size_t place, std::size_t station) { waiting[station].push_back(place); }
+  Data(const BodyModel& model, std::size_t count) : body(model), places(count, Place(model)) {
+    for (Pile& pile : waiting) pile.places.resize(count);
+  }
+
+  void wait(std::size_t place, std::size_t station) {
+    Pile& pile = waiting[station];
+    pile.places[pile.size++] = static_cast<std::uint32_t>(place);
+  }
 
   const BodyModel& body;
   std::vector<Place> places;
-  std::vector<std::size_t> waiting[kStations];
+  Pile waiting[kStations];
 };
 
 }  // namespace ifa

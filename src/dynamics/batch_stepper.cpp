@@ -43,6 +43,7 @@ class BatchRun {
         data_(data),
         limit_(limit),
         listener_(listener),
+        nowhere_(data.body),
         ground_(data.body),
         contact_(data.body) {}
 
@@ -63,7 +64,7 @@ class BatchRun {
  private:
   bool take();
   void load(std::size_t blocks);
-  void store(unsigned lanes, std::size_t blocks);
+  void store(std::size_t blocks);
   void coverLists();
   void look();
   void arrive();
@@ -85,9 +86,7 @@ class BatchRun {
     data_.wait(taken_[lane], high ? kHighFlight : kFlight);
   }
   void chooseNext();
-  [[nodiscard]] BatchStepper::Data::Place& place(std::size_t lane) {
-    return data_.places[taken_[lane]];
-  }
+  [[nodiscard]] BatchStepper::Data::Place& place(std::size_t lane) { return *places_[lane]; }
   [[nodiscard]] static double* numbers(BatchStepper::Data::Place& place) {
     return reinterpret_cast<double*>(&place.sim);
   }
@@ -101,8 +100,10 @@ class BatchRun {
   Lanes limit_;
   BatchListener& listener_;
   std::size_t station_ = kArrive;
-  std::size_t taken_[kLanes] = {}, count_ = 0;  ///< places in the lanes
-  unsigned used_ = 0;                           ///< lanes that have one, as bits
+  std::size_t taken_[kLanes] = {}, count_ = 0;  ///< places in the lanes ...
+  BatchStepper::Data::Place* places_[kLanes] = {};
+  unsigned used_ = 0;                  ///< ... and lanes that have one, as bits
+  BatchStepper::Data::Place nowhere_;  ///< for what the other lanes give back
   LaneSim sim_;
   KernelState<double> before_[kLanes];
   alignas(kLanes * sizeof(double)) double impulse_[3][kLanes] = {};  ///< of all points, N s
@@ -118,18 +119,20 @@ class BatchRun {
 bool BatchRun::take() {
   std::size_t most = 0;
   for (std::size_t s = 1; s < kStations; ++s) {
-    if (data_.waiting[s].size() > data_.waiting[most].size()) most = s;
+    if (data_.waiting[s].size > data_.waiting[most].size) most = s;
   }
   auto& waiting = data_.waiting[most];
   station_ = most;
-  count_ = std::min(kLanes, waiting.size());
+  count_ = std::min(kLanes, waiting.size);
   used_ = (1U << count_) - 1;
+  waiting.size -= count_;
+  const std::uint32_t* last = waiting.places.data() + waiting.size;
   for (std::size_t lane = 0; lane < count_; ++lane) {
-    taken_[lane] = waiting.back();
-    waiting.pop_back();
+    taken_[lane] = last[count_ - 1 - lane];
+    places_[lane] = &data_.places[taken_[lane]];
   }
   // Lanes that are left over do what the first one does, and nobody looks.
-  for (std::size_t lane = count_; lane < kLanes && count_ > 0; ++lane) taken_[lane] = taken_[0];
+  for (std::size_t lane = count_; lane < kLanes && count_ > 0; ++lane) places_[lane] = places_[0];
   return count_ > 0;
 }
 
@@ -139,19 +142,19 @@ void BatchRun::load(std::size_t blocks) {
   for (std::size_t lane = 0; lane < kLanes; ++lane) from[lane] = numbers(place(lane));
   auto* to = reinterpret_cast<double*>(&sim_);
   for (std::size_t b = 0; b < blocks; ++b) {
-    ifa::loadBlock(from, to + b * ifa::kBlock * kLanes);
-    for (const double*& at : from) at += ifa::kBlock;
+    ifa::loadBlock(from, b * ifa::kBlock, to + b * ifa::kBlock * kLanes);
   }
 }
 
-/// Gives them back from `lanes`.
-void BatchRun::store(unsigned lanes, std::size_t blocks) {
+/// Gives them back.
+void BatchRun::store(std::size_t blocks) {
   double* to[kLanes];
-  for (std::size_t lane = 0; lane < kLanes; ++lane) to[lane] = numbers(place(lane));
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    to[lane] = lane < count_ ? numbers(place(lane)) : numbers(nowhere_);
+  }
   const auto* from = reinterpret_cast<const double*>(&sim_);
   for (std::size_t b = 0; b < blocks; ++b) {
-    ifa::storeBlock(from + b * ifa::kBlock * kLanes, lanes, to);
-    for (double*& at : to) at += ifa::kBlock;
+    ifa::storeBlock(from + b * ifa::kBlock * kLanes, to, b * ifa::kBlock);
   }
 }
 
@@ -228,7 +231,7 @@ void BatchRun::arrive() {
   sim_.kinetic = ifa::kineticEnergy(data_.body, sim_.state.velocity, sim_.state.w);
   look();
   chooseNext();
-  store(used_, kBlocks);
+  store(kBlocks);
   for (std::size_t lane = 0; lane < count_; ++lane) waitAtGround(lane);
 }
 
@@ -240,7 +243,7 @@ void BatchRun::fly() {
     look();
     chooseNext();
   }
-  store(used_, kBlocks);
+  store(kBlocks);
   for (std::size_t lane = 0; lane < count_; ++lane) {
     const bool touched = (touches >> lane & 1U) != 0;
     const auto& state = place(lane).sim.state;
@@ -260,7 +263,7 @@ void BatchRun::hit() {
   chooseNext();
   keepImpulses();
   keepBefore();
-  store(used_, kBlocks);
+  store(kBlocks);
   for (std::size_t lane = 0; lane < count_; ++lane) {
     if (tell(lane, Advance::kImpact, before_[lane], place(lane).sim.state)) waitAtGround(lane);
   }
@@ -284,7 +287,7 @@ void BatchRun::step() {
   const unsigned halves = ifa::laneBits(contact_.halves()) & taken;
   const unsigned rests = ifa::laneBits(contact_.rests()) & taken;
   points = std::max(points, static_cast<std::size_t>(contact_.points()));
-  store(used_, taken != 0 ? LaneSim::blocks(points) : kBlocks);
+  store(taken != 0 ? LaneSim::blocks(points) : kBlocks);
   for (std::size_t lane = 0; lane < count_; ++lane) {
     const unsigned bit = 1U << lane;
     if ((taken & bit) != 0) {

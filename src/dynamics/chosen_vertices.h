@@ -57,17 +57,6 @@ class ChosenVertices {
   }
   /// Lanes that have more than `k`.
   [[nodiscard]] LaneMask<R> lanesWith(int k) const { return R(k) < loadLanes<R>(counts_); }
-  /// Lanes that have `vertex`.
-  [[nodiscard]] LaneMask<R> lanesThatHave(std::int64_t vertex) const {
-    unsigned bits = 0;
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      for (int k = 0; k < count(lane); ++k) {
-        const std::int64_t number = numbers_[static_cast<std::size_t>(k) * kLanes + lane];
-        if (number == vertex) bits |= 1U << lane;
-      }
-    }
-    return lanesOf<R>(bits);
-  }
   /// Number `k` of each lane; 0 where it has fewer, so that it may be looked up.
   [[nodiscard]] Index at(int k) const {
     return orZero(lanesWith(k), loadIndices<R>(numbers_ + static_cast<std::size_t>(k) * kLanes));

@@ -108,6 +108,7 @@ class ContactPhase {
 
   const BodyModel& body_;
   ChosenVertices<R, kMostHullVertices> chosen_;  ///< numbers in the ground's list
+  std::uint8_t held_[kMostHullVertices]{};       ///< lanes in which a step holds them
   Solver solver_;
   R vertices_[Solver::kMaxPoints]{};  ///< hull vertices of its points
   Vec<R> impulse_{};
@@ -177,13 +178,16 @@ void ContactPhase<R, Ground>::gatherHeld(const R& step, const Ground& ground) {
   for (int i = 0; i < ground.count(); ++i) {
     const R gap = ground.gap(i);
     const Mask close = gap <= far;
+    held_[i] = 0;
     if (!anyLane(close)) continue;
     const R rate = ground.rate(i);
     const Mask at = gap <= near;
     const Mask stays = at & (rate < parting);
     const Mask sinks =
         (gap + (rate - fall) * step < zero) & (rate * step >= back * gap) & (rate >= landing) & !at;
-    sets.add(close & (stays | sinks), i);
+    const Mask holds = close & (stays | sinks);
+    held_[i] = static_cast<std::uint8_t>(laneBits(holds));
+    sets.add(holds, i);
   }
   sets.finish();
 }
@@ -205,6 +209,10 @@ void ContactPhase<R, Ground>::thin(const Rotation<R>& rotation, const Ground& gr
     thinBySpread(Solver::kMaxPoints, spots);
     for (std::size_t k = 0; k < spots.size(); ++k) chosen_.number(k, lane) = spots[k].number;
     chosen_.shorten(lane, Solver::kMaxPoints);
+    for (int i = 0; i < ground.count(); ++i) held_[i] &= static_cast<std::uint8_t>(~(1U << lane));
+    for (std::size_t k = 0; k < spots.size(); ++k) {
+      held_[spots[k].number] |= static_cast<std::uint8_t>(1U << lane);
+    }
   }
 }
 
@@ -267,20 +275,33 @@ void ContactPhase<R, Ground>::warmStart(const Sim& sim, const R& step) {
 }
 
 /// Share of the step after which a vertex that was not held is at the ground, where it ends under
-/// it; else 1. As seconds.
+/// it; else 1. As seconds. The first such vertex of each lane is solved for with those of the
+/// others.
 template <class R, class Ground>
 R ContactPhase<R, Ground>::overshoot(const R& step, const Ground& ground) const {
   const R under(-0.5 * body_.hitGap), near(body_.hitGap);
-  R first(1.0);
+  R first(1.0), gap0{}, rate0{}, gap1{}, rate1{};
+  Mask found(false);
   for (int i = 0; i < ground.count(); ++i) {
     const R gap = ground.gap(i), nextGap = ground.nextGap(i);
-    const Mask sinks = (nextGap < under) & (gap > near);
-    if (!anyLane(sinks)) continue;
-    const Mask falls = sinks & !chosen_.lanesThatHave(i);
+    const Mask falls = (nextGap < under) & (gap > near) & !lanesOf<R>(held_[i]);
     if (!anyLane(falls)) continue;
-    const HeightCubic<R> height(gap, ground.rate(i), nextGap, ground.nextRate(i), step);
-    setWhere(falls, first, laneMin(first, height.firstTouch(falls)));
+    const R rate = ground.rate(i), nextRate = ground.nextRate(i);
+    const Mask more = falls & found;
+    if (anyLane(more)) {
+      const HeightCubic<R> height(gap, rate, nextGap, nextRate, step);
+      setWhere(more, first, laneMin(first, height.firstTouch(more)));
+    }
+    const Mask one = falls & !found;
+    setWhere(one, gap0, gap);
+    setWhere(one, rate0, rate);
+    setWhere(one, gap1, nextGap);
+    setWhere(one, rate1, nextRate);
+    found = found | falls;
   }
+  if (!anyLane(found)) return step;
+  const HeightCubic<R> height(gap0, rate0, gap1, rate1, step);
+  setWhere(found, first, laneMin(first, height.firstTouch(found)));
   return first * step;
 }
 

@@ -121,8 +121,7 @@ void GroundLanes<R>::takeLists(const GroundWatch* const* watches) {
   }
   constexpr int kPerBlock = static_cast<int>(kBlock) / kFields;
   for (int i = 0; i < count_; i += kPerBlock) {
-    loadBlock(from, lists_.row(i * kFields));
-    for (const double*& at : from) at += kBlock;
+    loadBlock(from, static_cast<std::size_t>(i * kFields), lists_.row(i * kFields));
   }
 }
 

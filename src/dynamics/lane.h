@@ -70,8 +70,9 @@ inline std::int64_t loadIndices<double>(const std::int64_t* from) {
   return *from;
 }
 inline std::int64_t orZero(bool mask, std::int64_t index) { return mask ? index : 0; }
-/// A whole number told as a double.
+/// A whole number told as a double, and the way back.
 inline std::int64_t indexOf(double number) { return static_cast<std::int64_t>(number); }
+inline double numberOf(std::int64_t index) { return static_cast<double>(index); }
 
 /// Each lane's own entry of a table.
 template <class R>

@@ -127,11 +127,13 @@ IFA_WIDE(WideIndex, loadIndices<Wide>, (const std::int64_t* from), v,
 IFA_WIDE(WideIndex, orZero, (const WideMask& mask, const WideIndex& index), v,
          hn::IfThenElseZero(hn::RebindMask(WideIndexTag(), mask.m[i]), index.v[i]))
     IFA_WIDE(WideIndex, indexOf, (const Wide& number), v,
-             hn::ConvertTo(WideIndexTag(), number.v[i])) template <>
-    IFA_WIDE(Wide, fromTable<Wide>, (const double* table, const WideIndex& index), v,
-             hn::GatherIndex(WideTag(), table, index.v[i]))
-    template <int kTimes>
-    HWY_INLINE WideIndex times(const WideIndex& index) {
+             hn::ConvertTo(WideIndexTag(), number.v[i]))
+        IFA_WIDE(Wide, numberOf, (const WideIndex& index), v,
+                 hn::ConvertTo(WideTag(), index.v[i])) template <>
+        IFA_WIDE(Wide, fromTable<Wide>, (const double* table, const WideIndex& index), v,
+                 hn::GatherIndex(WideTag(), table, index.v[i]))
+        template <int kTimes>
+        HWY_INLINE WideIndex times(const WideIndex& index) {
   constexpr int kShift = std::countr_zero(static_cast<unsigned>(kTimes));
   static_assert(1 << kShift == kTimes);
   WideIndex result;
@@ -195,14 +197,15 @@ HWY_INLINE void transpose(hn::Vec<WideTag> (&square)[kInRegister]) {
 /// Numbers that are moved together between lanes and memory.
 inline constexpr std::size_t kBlock = 8;
 
-/// Takes kBlock numbers of each lane, which lie together at an aligned place, into rows of lanes.
-HWY_INLINE void loadBlock(const double* const* from, double* to) {
+/// Takes kBlock numbers of each lane, which lie together at an aligned place, `at` numbers from
+/// `from`, into rows of lanes.
+HWY_INLINE void loadBlock(const double* const* from, std::size_t at, double* to) {
   const WideTag d;
   for (std::size_t i = 0; i < kRegisters; ++i) {
     for (std::size_t field = 0; field < kBlock; field += kInRegister) {
       hn::Vec<WideTag> square[kInRegister];
       for (std::size_t k = 0; k < kInRegister; ++k) {
-        square[k] = hn::Load(d, from[i * kInRegister + k] + field);
+        square[k] = hn::Load(d, from[i * kInRegister + k] + at + field);
       }
       transpose(square);
       for (std::size_t k = 0; k < kInRegister; ++k) {
@@ -211,8 +214,8 @@ HWY_INLINE void loadBlock(const double* const* from, double* to) {
     }
   }
 }
-/// The way back, for as many lanes as `bits` has.
-HWY_INLINE void storeBlock(const double* from, unsigned bits, double* const* to) {
+/// The way back.
+HWY_INLINE void storeBlock(const double* from, double* const* to, std::size_t at) {
   const WideTag d;
   for (std::size_t i = 0; i < kRegisters; ++i) {
     for (std::size_t field = 0; field < kBlock; field += kInRegister) {
@@ -222,8 +225,7 @@ HWY_INLINE void storeBlock(const double* from, unsigned bits, double* const* to)
       }
       transpose(square);
       for (std::size_t k = 0; k < kInRegister; ++k) {
-        const std::size_t lane = i * kInRegister + k;
-        if ((bits >> lane & 1U) != 0) hn::Store(square[k], d, to[lane] + field);
+        hn::Store(square[k], d, to[i * kInRegister + k] + at + field);
       }
     }
   }
