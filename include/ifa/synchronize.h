@@ -45,7 +45,7 @@ struct SynchronizeSettings {
   /// Also looks for the restitution, and where none is named the surface, that suit the sound best
   /// (docs/fitting.md). Not with "graph".
   bool fit = false;
-  std::string planner = "shoot";  ///< or "graph"
+  std::string planner = "shoot";  ///< or "hybrid", "graph"
   GraphOptions graph;             ///< for "graph"
   std::filesystem::path objects;  ///< folder of the library; empty: the program's own
   std::uint64_t seed = 1;

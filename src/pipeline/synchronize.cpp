@@ -56,6 +56,7 @@ struct Job {
   Heard heard;
   std::unique_ptr<Planner> planner;
   EnergyOutlook outlook;
+  SymmetryGroup symmetry;
   std::shared_ptr<const ContactGraph> graph;  // for "graph"
   std::optional<EventDatabase> database;      // for "graph" and "hybrid"
 };
@@ -71,8 +72,13 @@ Result<Job> prepare(const SynchronizeSettings& settings) {
   if (!surface) return tl::unexpected(surface.error());
   auto heard = hear(settings, body->definition.mergeGap);
   if (!heard) return tl::unexpected(heard.error());
-  return Job{
-      std::move(*body), std::move(*surface), std::move(*heard), std::move(*planner), {}, {}, {}};
+  Job job;
+  job.symmetry = findSymmetry(*body);
+  job.body = std::move(*body);
+  job.surface = std::move(*surface);
+  job.heard = std::move(*heard);
+  job.planner = std::move(*planner);
+  return job;
 }
 
 // Takes time on an object's first use, so it comes after all that can be refused at once.
@@ -123,7 +129,7 @@ PlanRequest makeRequest(const SynchronizeSettings& settings, const Job& job) {
   request.body = &job.body;
   request.surface = job.body.definition.surfaces.at(job.surface);
   request.surfaceName = job.surface;
-  request.symmetry = findSymmetry(job.body).elements();
+  request.symmetry = job.symmetry.elements();
   request.signature = job.heard.signature;
   request.settings.seed = settings.seed;
   request.settings.takes = settings.takes;
