@@ -156,6 +156,9 @@ class Fitting {
   }
 
   void tellWhatWasTried() {
+    if (secondsLeft().value_or(1) <= 0) {
+      for (Plan& plan : best_->plans) plan.timeLimitReached = true;
+    }
     Plan& plan = best_->plans.front();
     if (plan.solved) return;
     const auto [least, most] = std::minmax_element(

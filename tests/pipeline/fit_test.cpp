@@ -154,6 +154,14 @@ TEST_F(FitTest, ChoosesAmongSurfaces) {
   EXPECT_LE(work(planner), 3);
 }
 
+TEST_F(FitTest, SaysThatTheTimeLimitWasReached) {
+  request_.plan.settings.timeLimitSeconds = 1e-6;
+  const PlannerByFormula planner([](const SurfaceProperties&) { return 0.2; });
+  const Fit fit = fitWith(planner);
+  EXPECT_EQ(planner.asked.size(), 1U);  // something is always looked at
+  EXPECT_TRUE(fit.plans.front().timeLimitReached);
+}
+
 TEST_F(FitTest, StopsWhenAsked) {
   const std::atomic<bool> stop{true};
   Progress progress;
