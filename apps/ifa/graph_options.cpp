@@ -27,8 +27,9 @@ void addGraphOptions(CLI::App& command, GraphOptions& options) {
       ->capture_default_str()
       ->group(group);
   command
-      .add_flag("!--no-symmetry", options.symmetry,
-                "take events as they are, not also as their images under the body's symmetry group")
+      .add_flag_callback(
+          "--no-symmetry", [&options] { options.symmetry = false; },
+          "take events as they are, not also as their images under the body's symmetry group")
       ->group(group);
   command
       .add_flag("--printed-velocity", options.printedVelocity,
