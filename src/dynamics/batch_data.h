@@ -26,12 +26,17 @@ enum Station : std::size_t {
 inline constexpr std::size_t kImpacts = 4, kContacts = 4;
 
 struct BatchStepper::Data {
+  /// Two listed vertices, as they are moved into lanes together.
+  struct alignas(64) Pair {
+    double numbers[8];
+  };
   struct Place {
-    explicit Place(const BodyModel& body) : watch(body) {}
+    explicit Place(const BodyModel& body) : listed(body.rows.size() / 2) {}
 
     alignas(64) Simulation<double> sim;
-    GroundWatch watch;
-    bool renewed = false;  ///< another simulation was started while the last piece was told
+    alignas(64) GroundCover<double> cover;
+    std::vector<Pair> listed;  ///< as GroundLanes::list() makes it
+    bool renewed = false;      ///< another simulation was started while the last piece was told
   };
 
   /// A pile of places, with room for all of them.

@@ -66,6 +66,7 @@ class BatchRun {
   void load(std::size_t blocks);
   void store(std::size_t blocks);
   void coverLists();
+  void makeLists(unsigned lanes);
   void look();
   void arrive();
   IFA_ONE_FUNCTION void fly();
@@ -115,12 +116,14 @@ class BatchRun {
   ifa::ContactPhase<Lanes, LaneGround> contact_;
 };
 
-/// Takes as many as there are lanes from where most wait. False when nothing waits.
+/// Takes as many as there are lanes from the station at work, whose code is at hand, or where that
+/// has not so many, from where most wait. False when nothing waits.
 bool BatchRun::take() {
   std::size_t most = 0;
   for (std::size_t s = 1; s < kStations; ++s) {
     if (data_.waiting[s].size > data_.waiting[most].size) most = s;
   }
+  if (data_.waiting[station_].size >= kLanes) most = station_;
   auto& waiting = data_.waiting[most];
   station_ = most;
   count_ = std::min(kLanes, waiting.size);
@@ -168,27 +171,44 @@ KernelState<double> BatchRun::stateOf(const ifa::KernelState<Lanes>& all, std::s
 
 /// Makes sure that the lists are good, and takes them.
 void BatchRun::coverLists() {
-  constexpr std::size_t kSeen = 5;
-  const Lanes seen[kSeen] = {rotation_.rows[2].x, rotation_.rows[2].y, rotation_.rows[2].z,
-                             sim_.state.position.z, sim_.kinetic};
-  alignas(kLanes * sizeof(double)) double of[kSeen][kLanes];
-  for (std::size_t i = 0; i < kSeen; ++i) ifa::storeLanes(seen[i], of[i]);
-  const GroundWatch* watches[kLanes];
+  const Lanes height = sim_.state.position.z;
+  const auto& up = rotation_.rows[2];
+  const double* lists[kLanes];
+  double* covers[kLanes];
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    auto& watch = place(lane).watch;
-    if (lane < count_ &&
-        watch.cover(of[3][lane], {of[0][lane], of[1][lane], of[2][lane]}, of[4][lane])) {
-      watch.tellList();
-    }
-    watches[lane] = &watch;
+    lists[lane] = place(lane).listed[0].numbers;
+    covers[lane] = reinterpret_cast<double*>(&place(lane).cover);
   }
-  ground_.takeLists(watches);
+  ifa::GroundCover<Lanes> cover;
+  ifa::loadBlock(covers, 0, reinterpret_cast<double*>(&cover));
+  const unsigned old = ifa::laneBits(!cover.holds(data_.body, height, up, sim_.kinetic)) & used_;
+  if (old != 0) {
+    makeLists(old);
+    ifa::loadBlock(covers, 0, reinterpret_cast<double*>(&cover));
+  }
+  ground_.takeLists(lists, cover.count);
+}
+
+/// Makes the lists of `lanes` anew.
+void BatchRun::makeLists(unsigned lanes) {
+  ifa::GroundCover<Lanes> cover;
+  cover.renew(data_.body, sim_.state.position.z, rotation_.rows[2], sim_.kinetic);
+  const auto* all = reinterpret_cast<const double*>(&cover);
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+    auto& here = place(lane);
+    double own[ifa::kBlock];
+    for (std::size_t i = 0; i < ifa::kBlock; ++i) own[i] = all[i * kLanes + lane];
+    here.cover = {own[0], {own[1], own[2], own[3]}, own[4], own[5], own[6], 0};
+    here.cover.count =
+        ground_.list(own[0], {own[1], own[2], own[3]}, own[6], here.listed[0].numbers);
+  }
 }
 
 /// Measures the vertices that a step from here can bring to the ground.
 void BatchRun::look() {
   rotation_ = ifa::Rotation<Lanes>(sim_.state.q);
-  if (!data_.places[0].watch.all()) coverLists();
+  if (!ground_.shared()) coverLists();
   ground_.measure(sim_.state, rotation_);
 }
 

@@ -33,8 +33,9 @@ class BatchListener {
 /// Not thread safe; make one per thread. The model must outlive it.
 class BatchStepper {
  public:
-  /// Simulations for which registers are full most of the time.
-  static constexpr std::size_t kPlaces = 64;
+  /// Simulations for which registers are full most of the time and a station, once at work, has
+  /// enough for several times.
+  static constexpr std::size_t kPlaces = 128;
 
   /// @param places  simulations at a time
   explicit BatchStepper(const BodyModel& body, std::size_t places = kPlaces);

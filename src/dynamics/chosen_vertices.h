@@ -20,7 +20,10 @@ class ChosenVertices {
 
   ChosenVertices() { clear(); }
 
-  void clear() { std::fill(counts_, counts_ + kLanes, 0); }
+  void clear() {
+    std::fill(counts_, counts_ + kLanes, 0);
+    most_ = 0;
+  }
   void add(const LaneMask<R>& lanes, std::size_t vertex) {
     for (unsigned bits = laneBits(lanes); bits != 0; bits &= bits - 1) {
       addTo(static_cast<std::size_t>(std::countr_zero(bits)), static_cast<std::int64_t>(vertex));
@@ -29,6 +32,10 @@ class ChosenVertices {
   /// Adds those of each lane's set, a whole number with a bit for each vertex from number `first`
   /// on.
   void addSets(const R& sets, std::size_t first) {
+    if (most_ == 0) {
+      takeSets(indexOf(sets), R(static_cast<double>(first)));
+      return;
+    }
     alignas(kLanes * sizeof(double)) double numbers[kLanes];
     storeLanes(sets, numbers);
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
@@ -37,21 +44,13 @@ class ChosenVertices {
       }
     }
   }
-  /// Adds to each lane one of its own, told as a number.
-  void addOwn(const LaneMask<R>& lanes, const R& vertex) {
-    for (unsigned bits = laneBits(lanes); bits != 0; bits &= bits - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-      addTo(lane, static_cast<std::int64_t>(laneOf(vertex, lane)));
-    }
-  }
-
   /// Of the lane that has most.
-  [[nodiscard]] int count() const {
-    return static_cast<int>(*std::max_element(counts_, counts_ + kLanes));
-  }
-  [[nodiscard]] R counts() const { return loadLanes<R>(counts_); }
+  [[nodiscard]] int count() const { return most_; }
   [[nodiscard]] int count(std::size_t lane) const { return static_cast<int>(counts_[lane]); }
-  void shorten(std::size_t lane, int count) { counts_[lane] = count; }
+  void shorten(std::size_t lane, int count) {
+    counts_[lane] = count;
+    most_ = static_cast<int>(*std::max_element(counts_, counts_ + kLanes));
+  }
   [[nodiscard]] std::int64_t& number(std::size_t k, std::size_t lane) {
     return numbers_[k * kLanes + lane];
   }
@@ -63,13 +62,27 @@ class ChosenVertices {
   }
 
  private:
+  /// The first sets, all lanes at once.
+  void takeSets(Index sets, const R& first) {
+    R counts(0.0);
+    for (std::size_t k = 0; k < kMost; ++k) {
+      const LaneMask<R> some = hasBits(sets);
+      if (!anyLane(some)) break;
+      storeIndices(indexOf(first + takeLowestBit(sets)), numbers_ + k * kLanes);
+      setWhere(some, counts, counts + R(1.0));
+      ++most_;
+    }
+    storeLanes(counts, counts_);
+  }
   void addTo(std::size_t lane, std::int64_t vertex) {
     const auto place = static_cast<std::size_t>(counts_[lane]);
     if (place >= kMost) return;
     numbers_[place * kLanes + lane] = vertex;
     counts_[lane] += 1;
+    most_ = std::max(most_, static_cast<int>(counts_[lane]));
   }
 
+  int most_ = 0;  ///< of counts_
   alignas(kLanes * sizeof(double)) double counts_[kLanes];
   alignas(kLanes * sizeof(double)) std::int64_t numbers_[kMost * kLanes];
 };

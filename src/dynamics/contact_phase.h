@@ -143,9 +143,14 @@ template <class R, class Ground>
 auto ContactPhase<R, Ground>::outlook(const Sim& sim, const Ground& ground) const -> Outlook {
   const R zero(0.0), one(1.0), slop(body_.slop), together(kTogether), near(body_.hitGap);
   const R fast(-Rules::kLandingSpeed), slow(Rules::kTouchingSpeed), parting(Rules::kPartingSpeed);
+  const bool skips = !ground.shared();  // what is too high; of few vertices it costs more
+  R far{};
+  if (skips) far = laneMax(laneMax(slop, near), ground.mostRate() * together);
   Outlook all{Mask(false), Mask(false), zero, zero};
   for (int i = 0; i < ground.count(); ++i) {
-    const R gap = ground.gap(i), rate = ground.rate(i);
+    const R gap = ground.gap(i);
+    if (skips && !anyLane(gap <= far)) continue;
+    const R rate = ground.rate(i);
     const Mask at = gap <= near;
     all.hits = all.hits | (at & (rate < fast));
     all.touches = all.touches | ((gap <= slop) & (rate <= slow));

@@ -123,13 +123,26 @@ class ContactSolver {
     }
   }
 
-  static void prepare(const BodyModel& body, const WorldInertia<R>& inverse, ContactPoint<R>& p) {
-    const R inverseMass(body.inverseMass), one(1.0);
+  /// Of a body whose moments are all equal half of the numbers are 0.
+  static void turns(const WorldInertia<R>& inverse, ContactPoint<R>& p) {
+    if (inverse.isotropic) {
+      const R zero(0.0);
+      const Vec<R> arm = p.r * inverse.xx;
+      p.turnX = {zero, arm.z, zero - arm.y};
+      p.turnY = {zero - arm.z, zero, arm.x};
+      p.turnZ = {arm.y, zero - arm.x, zero};
+      return;
+    }
     const Vec<R> a = {inverse.xx, inverse.xy, inverse.xz}, b = {inverse.xy, inverse.yy, inverse.yz};
     const Vec<R> c = {inverse.xz, inverse.yz, inverse.zz};
     p.turnX = b * p.r.z - c * p.r.y;
     p.turnY = c * p.r.x - a * p.r.z;
     p.turnZ = a * p.r.y - b * p.r.x;
+  }
+
+  static void prepare(const BodyModel& body, const WorldInertia<R>& inverse, ContactPoint<R>& p) {
+    const R inverseMass(body.inverseMass), one(1.0);
+    turns(inverse, p);
     // Change of the point's velocity by unit impulses: a symmetric matrix.
     const R axx = inverseMass + p.turnX.y * p.r.z - p.turnX.z * p.r.y;
     const R ayy = inverseMass + p.turnY.z * p.r.x - p.turnY.x * p.r.z;
@@ -159,7 +172,14 @@ class ContactSolver {
   static void apply(const BodyModel& body, const LaneMask<R>& lanes, const ContactPoint<R>& p,
                     const Vec<R>& impulse, Vec<R>& velocity, Vec<R>& spin) {
     setWhere(lanes, velocity, velocity + impulse * R(body.inverseMass));
-    setWhere(lanes, spin, spin + p.turnX * impulse.x + p.turnY * impulse.y + p.turnZ * impulse.z);
+    if (body.isotropic) {
+      const Vec<R> turned = {spin.x + p.turnY.x * impulse.y + p.turnZ.x * impulse.z,
+                             spin.y + p.turnX.y * impulse.x + p.turnZ.y * impulse.z,
+                             spin.z + p.turnX.z * impulse.x + p.turnY.z * impulse.y};
+      setWhere(lanes, spin, turned);
+    } else {
+      setWhere(lanes, spin, spin + p.turnX * impulse.x + p.turnY * impulse.y + p.turnZ * impulse.z);
+    }
   }
 
   /// One Gauss-Seidel visit in the lanes `moves`; returns the size of the change, 0 in others.

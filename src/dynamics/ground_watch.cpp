@@ -3,58 +3,27 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstdint>
 #include <numeric>
 
 namespace ifa {
 
-namespace {
-
-/// Bodies of fewer vertices are always looked at whole.
-constexpr std::size_t kFew = 24;
-/// How far beyond what must be seen a new list reaches, in that distance and in radii of the body,
-/// and what kinetic energy it is good for, in that of the moment.
-constexpr double kFarther = 3, kFartherRadii = 0.01, kFaster = 1.5;
-/// A list made for so many times the kinetic energy is too long to keep; slower bodies than kSlow
-/// (m/s) are not told apart.
-constexpr double kSlower = 8, kSlow = 0.05;
-
-}  // namespace
-
 GroundWatch::GroundWatch(const BodyModel& body)
     : body_(body), rows_(body.rows), index_(body.rows.size()), all_(body.x.size() <= kFew) {
   std::iota(index_.begin(), index_.end(), 0);
-  if (!all_) {
-    listed_.resize(body.rows.size() / 2);
-    for (Pair& pair : listed_) pair.numbers[3] = pair.numbers[7] = -1;
-    return;
-  }
+  if (!all_) return;
   count_ = body.x.size();
   filled_ = body.rows.size();
 }
 
 bool GroundWatch::cover(double height, const Vec<double>& up, double kinetic) {
-  if (all_) return false;
-  kinetic = laneMax(kinetic, 0.5 * body_.mass * kSlow * kSlow);
-  const Vec<double> turned = up - listedUp_;
-  const double left = margin_ - reach_ + (height - listedHeight_);
-  if (kinetic <= mostKinetic_ && kinetic * kSlower >= mostKinetic_ && left > 0 &&
-      body_.radius * body_.radius * dot(turned, turned) < left * left) {
-    return false;
-  }
-  list(height, up, kinetic);
+  if (all_ || cover_.holds(body_, height, up, kinetic)) return false;
+  cover_.renew(body_, height, up, kinetic);
+  list(height, up);
   return true;
 }
 
-void GroundWatch::list(double height, const Vec<double>& up, double kinetic) {
-  const double step = body_.step + kTogether;
-  listedHeight_ = height;
-  listedUp_ = up;
-  mostKinetic_ = kFaster * kinetic;
-  const double speed = body_.speedRoot * std::sqrt(2 * mostKinetic_) + kGravity * step;
-  reach_ = speed * step + body_.slop;
-  margin_ = kFarther * reach_ + kFartherRadii * body_.radius;
+void GroundWatch::list(double height, const Vec<double>& up) {
   const double *x = body_.rows.x.data(), *y = body_.rows.y.data(), *z = body_.rows.z.data();
   double *nearX = rows_.x.data(), *nearY = rows_.y.data(), *nearZ = rows_.z.data();
   count_ = 0;
@@ -65,7 +34,7 @@ void GroundWatch::list(double height, const Vec<double>& up, double kinetic) {
     for (std::size_t k = 0; k < size; ++k) {
       const std::size_t i = begin + k;
       const double gap = height + (x[i] * up.x + y[i] * up.y + z[i] * up.z);
-      near |= static_cast<std::uint64_t>(gap <= margin_) << k;
+      near |= static_cast<std::uint64_t>(gap <= cover_.margin) << k;
     }
     for (; near != 0; near &= near - 1, ++count_) {
       const std::size_t i = begin + static_cast<std::size_t>(std::countr_zero(near));
@@ -82,18 +51,6 @@ void GroundWatch::list(double height, const Vec<double>& up, double kinetic) {
     nearY[i] = nearY[count_ - 1];
     nearZ[i] = nearZ[count_ - 1];
   }
-}
-
-void GroundWatch::tellList() {
-  double* to = listed_[0].numbers;
-  for (std::size_t i = 0; i < count_; ++i, to += kListed) {
-    to[0] = rows_.x[i];
-    to[1] = rows_.y[i];
-    to[2] = rows_.z[i];
-    to[3] = index_[i];
-  }
-  for (std::size_t i = count_; i < told_; ++i, to += kListed) to[3] = -1;
-  told_ = count_;
 }
 
 void GroundWatch::measure(const KernelState<double>& state, const Rotation<double>& rotation,

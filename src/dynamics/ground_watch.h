@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "dynamics/body_model.h"
+#include "dynamics/ground_cover.h"
 #include "dynamics/kernel_state.h"
 
 namespace ifa {
@@ -22,6 +23,9 @@ struct GroundFrame {
 /// Not thread safe. The model must outlive it.
 class GroundWatch {
  public:
+  /// Bodies of so many vertices at most are always looked at whole.
+  static constexpr std::size_t kFew = 24;
+
   explicit GroundWatch(const BodyModel& body);
 
   /// Makes sure that every vertex that can be at the ground by the end of a step is listed, while
@@ -38,12 +42,6 @@ class GroundWatch {
   /// The end of the step is now.
   void goOn() { std::swap(now_, next_); }
 
-  /// Numbers of a vertex in listed().
-  static constexpr int kListed = 4;
-  /// The list as rows of x, y, z and number, -1 beyond its end, as tellList() puts it there: to be
-  /// called when cover() has remade the list. Not where all() are listed.
-  void tellList();
-  [[nodiscard]] const double* listed() const { return listed_[0].numbers; }
   /// Every vertex is listed, always.
   [[nodiscard]] bool all() const { return all_; }
   /// Length of the list. Its vertices are in the hull's order.
@@ -69,25 +67,14 @@ class GroundWatch {
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   void measure(const KernelState<double>& state, const Rotation<double>& rotation,
                GroundFrame& frame) const;
-  void list(double height, const Vec<double>& up, double kinetic);
-
-  /// Two vertices, as they are moved into lanes together.
-  struct alignas(2 * kListed * sizeof(double)) Pair {
-    double numbers[2 * kListed];
-  };
+  void list(double height, const Vec<double>& up);
 
   const BodyModel& body_;
   VertexRows rows_;         ///< room for all vertices; the list is what comes first
   std::vector<int> index_;  ///< likewise
   std::size_t count_ = 0;   ///< length of the list ...
   std::size_t filled_ = 0;  ///< ... and filled up to a multiple of VertexRows::kChunk
-  std::vector<Pair> listed_;
-  std::size_t told_ = 0;  ///< vertices in it
-  double listedHeight_ = 0;
-  Vec<double> listedUp_{};
-  double mostKinetic_ = -1;  ///< J, for which reach_ is enough
-  double reach_ = 0;         ///< m, how far a step can bring a vertex down
-  double margin_ = 0;        ///< what is not listed was higher than this, m
+  GroundCover<double> cover_;
   bool all_;
   GroundFrame now_, next_;
 };

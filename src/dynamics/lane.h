@@ -8,6 +8,7 @@
 #ifndef IFA_DYNAMICS_LANE_H
 #define IFA_DYNAMICS_LANE_H
 
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -70,6 +71,14 @@ inline std::int64_t loadIndices<double>(const std::int64_t* from) {
   return *from;
 }
 inline std::int64_t orZero(bool mask, std::int64_t index) { return mask ? index : 0; }
+inline void storeIndices(std::int64_t index, std::int64_t* to) { *to = index; }
+/// Sets of bits: whether there are any, and the number of the lowest, which is taken out.
+inline bool hasBits(std::int64_t sets) { return sets != 0; }
+inline double takeLowestBit(std::int64_t& sets) {
+  const int number = std::countr_zero(static_cast<std::uint64_t>(sets));
+  sets &= sets - 1;
+  return number;
+}
 /// A whole number told as a double, and the way back.
 inline std::int64_t indexOf(double number) { return static_cast<std::int64_t>(number); }
 inline double numberOf(std::int64_t index) { return static_cast<double>(index); }

@@ -36,6 +36,7 @@
 #undef IFA_DYNAMICS_CONTACT_PHASE_H
 #undef IFA_DYNAMICS_TOUCH_SEARCH_H
 #undef IFA_DYNAMICS_FLIGHT_H
+#undef IFA_DYNAMICS_GROUND_COVER_H
 #undef IFA_DYNAMICS_GROUND_LANES_H
 #undef IFA_DYNAMICS_WIDE_LANE_H
 
@@ -49,6 +50,7 @@ namespace HWY_NAMESPACE {
 #include "dynamics/lane_state.h"
 #include "dynamics/contact_phase.h"
 #include "dynamics/flight.h"
+#include "dynamics/ground_cover.h"
 #include "dynamics/ground_lanes.h"
 // clang-format on
 }  // namespace HWY_NAMESPACE

@@ -152,6 +152,34 @@ HWY_INLINE Wide fromRows<Wide>(const double* rows, const WideIndex& row) {
 }
 #undef IFA_WIDE
 
+HWY_INLINE void storeIndices(const WideIndex& index, std::int64_t* to) {
+  for (std::size_t i = 0; i < kRegisters; ++i) {
+    hn::Store(index.v[i], WideIndexTag(), to + i * kInRegister);
+  }
+}
+/// Sets of bits.
+HWY_INLINE WideMask hasBits(const WideIndex& sets) {
+  WideMask result;
+  for (std::size_t i = 0; i < kRegisters; ++i) {
+    const auto none = hn::Eq(sets.v[i], hn::Zero(WideIndexTag()));
+    result.m[i] = hn::Not(hn::RebindMask(WideTag(), none));
+  }
+  return result;
+}
+/// Takes the lowest bit out of each set and tells its number; of an empty set anything.
+HWY_INLINE Wide takeLowestBit(WideIndex& sets) {
+  const WideIndexTag d;
+  Wide result;
+  for (std::size_t i = 0; i < kRegisters; ++i) {
+    const auto lowest = hn::And(sets.v[i], hn::Neg(sets.v[i]));
+    sets.v[i] = hn::Xor(sets.v[i], lowest);
+    // A power of two as a double tells its exponent.
+    const auto exponent = hn::ShiftRight<52>(hn::BitCast(d, hn::ConvertTo(WideTag(), lowest)));
+    result.v[i] = hn::Sub(hn::ConvertTo(WideTag(), exponent), hn::Set(WideTag(), 1023.0));
+  }
+  return result;
+}
+
 /// Turns a square of numbers about its diagonal.
 HWY_INLINE void transpose(hn::Vec<WideTag> (&square)[kInRegister]) {
   const WideTag d;

@@ -14,8 +14,12 @@ namespace ifa {
 /// safe; one per thread. The model must outlive it.
 class ChainBatch : private BatchListener {
  public:
+  /// Simulations at a time, of the some hundreds of a block: of more, places are empty for longer
+  /// at its end.
+  static constexpr std::size_t kPlaces = 64;
+
   ChainBatch(const BodyModel& model, const RecorderSettings& recorder,
-             std::size_t places = BatchStepper::kPlaces);
+             std::size_t places = kPlaces);
 
   /// The events of a simulation from each of `starts` to rest, at most `timeLimit` seconds (of the
   /// simulation's own time) each, in the order of the starts.
