@@ -81,6 +81,7 @@ std::optional<Tally> report(const Body& body, const EventDatabase& database,
     request.surface = body.definition.surfaces.at(body.definition.defaultSurface);
     request.graph = &*graph;
     request.signature = signature;
+    request.settings.earlyExit = 1;  // or the budget would not be the same
     const double begin = processSeconds();
     const auto plans = ifa::GraphPlanner(budget).plan(request, {});
     tally.seconds += processSeconds() - begin;
