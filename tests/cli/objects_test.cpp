@@ -38,8 +38,9 @@ TEST(Objects, OneIsShownInFull) {
   const auto result = runProgram({"objects", "d6"});
   EXPECT_EQ(result.exit, 0);
   EXPECT_THAT(result.err, IsEmpty());
-  for (const char* fact : {"d6: Six-sided die", "16 x 16 x 16 mm", "4.9 g, solid", "8 vertices",
-                           "on desk *", "restitution", "1, 2, 3, 4, 5, 6"}) {
+  for (const char* fact :
+       {"d6: Six-sided die", "16 x 16 x 16 mm", "4.9 g, solid", "8 vertices",
+        "Oh: order 48, 24 rotations", "on desk *", "restitution", "1, 2, 3, 4, 5, 6"}) {
     EXPECT_THAT(result.out, HasSubstr(fact));
   }
 }

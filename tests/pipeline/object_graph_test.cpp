@@ -56,11 +56,13 @@ TEST_F(ObjectGraph, IsMadeOnce) {
 
 TEST_F(ObjectGraph, TakesTheOptionsOver) {
   options_.printedVelocity = options_.timeWarp = true;
+  options_.symmetry = false;
   GraphShelf shelf(options_, 0);
   const auto graph = get(shelf, eraser_);
   ASSERT_TRUE(graph);
   EXPECT_EQ((*graph)->settings().velocityReference, VelocityReference::kPrinted);
   EXPECT_EQ((*graph)->settings().connection, ConnectionKind::kBlend);
+  EXPECT_EQ((*graph)->symmetry().name(), "C1");
 }
 
 TEST_F(ObjectGraph, IsNotMadeOfAnotherBody) {
