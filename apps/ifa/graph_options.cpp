@@ -8,8 +8,10 @@ namespace ifa::cli {
 void addGraphOptions(CLI::App& command, GraphOptions& options) {
   const std::string group = "Planner \"graph\"";
   command
-      .add_option("--database", options.database,
-                  "event database of this object (default: the cache's, made on first use)")
+      .add_option(
+          "--database", options.database,
+          "event database of this object, also for \"hybrid\" (default: the cache's, made on "
+          "first use)")
       ->group(group);
   command.add_option("--simulations", options.simulations, "size of the cache's database")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1000000000}))

@@ -54,7 +54,7 @@ TEST_F(Synchronize, RefusesSettingsThatMakeNoSense) {
   all[2].timeLimitSeconds = nan;
   all[3].energyGain = -0.1;
   all[4].preRollSeconds = std::numeric_limits<double>::infinity();
-  all[5].planner = "hybrid";
+  all[5].planner = "chance";
   all[6].graph.earlyExit = nan;
   all[7].restitution = 0.96;
   all[8].restitution = nan;
