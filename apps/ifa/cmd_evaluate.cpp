@@ -64,7 +64,8 @@ void addOptions(CLI::App& command, EvaluateOptions& options) {
   EvaluateSettings& settings = options.settings;
   command.add_option("DIR", settings.folder, "folders named NAME or NAME@SURFACE")->required();
   command.add_option("-o,--out", options.report, "report to write: REPORT.json and REPORT.md");
-  command.add_option("--planner", settings.planner, "hybrid, shoot or graph")->capture_default_str();
+  command.add_option("--planner", settings.planner, "hybrid, shoot or graph")
+      ->capture_default_str();
   command.add_option("--seed", settings.seed, "of the searches")->capture_default_str();
   command.add_option("--time-limit", settings.timeLimitSeconds, "seconds per case (0: none)")
       ->check(numberFrom(0, 1e6));

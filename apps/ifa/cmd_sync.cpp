@@ -137,7 +137,8 @@ void addSearchOptions(CLI::App& command, SyncOptions& options) {
       ->check(CLI::Range(0.0, 0.95));
   command.add_flag("--fit", settings.fit,
                    "look for the restitution, and the surface if none is named, that suit best");
-  command.add_option("--planner", settings.planner, "hybrid, shoot or graph")->capture_default_str();
+  command.add_option("--planner", settings.planner, "hybrid, shoot or graph")
+      ->capture_default_str();
   command.add_option("--takes", settings.takes, "number of different motions, best first")
       ->check(CLI::Range(1, kMaxTakes))
       ->capture_default_str();
