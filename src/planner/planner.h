@@ -93,6 +93,9 @@ struct Plan {
   double secondsToGoodScore = -1;  ///< "graph": until kGoodScore was reached; negative: it was not
   EventCut cut = EventCut::kAudible;  ///< what its contacts are
   double bendCap = 2;                 ///< what the planner kept all bends under
+  /// By which "shoot" and "hybrid" order takes: log of the product of all factors, less what large
+  /// bends cost besides.
+  double worth = 0;
   double score = 0, scoreWithoutSound = 0, meanFv = 0, bendMedian = 0, bendMax = 0;
   std::vector<PlannedContact> contacts;
 };

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "planner/shooting_planner.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -10,6 +8,7 @@
 
 #include "planner/check_request.h"
 #include "planner/plan_difference.h"
+#include "planner/shooting_plan.h"
 #include "planner/shooting_search.h"
 
 namespace ifa {
@@ -18,108 +17,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-PlannedContact contactOf(const ShootingNode& node) {
-  PlannedContact contact;
-  contact.event = node.event;
-  contact.time = node.start;
-  contact.restitution = node.restitution;
-  contact.relativeAmplitude = node.heard.amplitude;
-  contact.bend = node.bend;
-  contact.arrival = node.arrival;
-  contact.arrivalChange = node.arrivalChange;
-  contact.arrivalAngularChange = node.arrivalAngular;
-  contact.arrivalBend = node.arrivalBend;
-  contact.source = node.source;
-  if (node.level == 0 && node.source.kind == SourceKind::kShot) {
-    contact.source.kind = SourceKind::kSampled;
-  }
-  return contact;
-}
-
-/// The factors of a contact, from its own numbers.
-ContactFactors factorsOf(const ShootingNode& node, const HeardEvent& target) {
-  ContactFactors factors;
-  factors.v = std::exp(logVelocity(node.bend) + logVelocity(node.arrivalBend));
-  factors.a = std::exp(logAmplitude(target, node.heard));
-  factors.l = std::exp(logDuration(target, node.heard));
-  factors.c = std::exp(logCentroid(target, node.heard));
-  return factors;
-}
-
-Plan planOf(const ShootingProblem& problem, const std::vector<ShootingNode>& path) {
-  Plan plan;
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    const ShootingNode& node = path[i];
-    PlannedContact contact = contactOf(node);
-    contact.factors = factorsOf(node, problem.targets[static_cast<std::size_t>(node.level)]);
-    contact.target = node.level;
-    if (i > 0) {
-      plan.contacts.back().velocityChange = node.velocityChange;
-      plan.contacts.back().angularVelocityChange = node.angularChange;
-    }
-    plan.contacts.push_back(contact);
-  }
-  sumUp(plan, path.back().log);
-  return plan;
-}
-
 /// A plan below this Score is not called solved (docs/method.md 5).
 constexpr double kLeastScore = 0.5;
 
 bool acceptable(const ShootingProblem& problem, const ShootingNode& node) {
   return node.log.score(static_cast<int>(problem.targets.size())) >= kLeastScore;
-}
-
-/// The commonest reason for which no motion reached the next contact, and what would help.
-std::string reasonOf(const ShootingDeaths& d, double gap, bool terminal) {
-  const long flight = d.noFlight + d.bent + d.energy + d.earlier;
-  const long sum = flight + d.unheard + d.restless + d.noTime;
-  if (sum == 0) return "the search ended before it was tried";
-  if (d.noTime * 2 > sum) {
-    return fmt::format("{:.0f} ms leave no time after the contact before; merge the two labels",
-                       gap * 1e3);
-  }
-  if (terminal && d.restless > flight) {
-    return "no motion comes to rest there; a longer last label, or --no-terminal, would help";
-  }
-  if (d.unheard * 2 > sum)
-    return "the contact would be too soft to be heard; another object or surface?";
-  if (d.energy > d.earlier && d.energy * 3 > sum) {
-    return fmt::format(
-        "the gap of {:.0f} ms before it needs more energy than is left; a higher restitution or a "
-        "mark that was missed in the gap?",
-        gap * 1e3);
-  }
-  if (d.bent > d.earlier) {
-    return fmt::format(
-        "a gap of {:.0f} ms asks for an implausible bounce; another restitution, or a missed or "
-        "false mark near it?",
-        gap * 1e3);
-  }
-  return fmt::format(
-      "in the {:.0f} ms before it something always touches too early; a mark that was "
-      "missed there?",
-      gap * 1e3);
-}
-
-std::string failureOf(const ShootingProblem& problem, const ShootingSearch& search,
-                      const ShootingNode* farthest) {
-  const auto& events = problem.request.signature.events;
-  if (farthest == nullptr) {
-    return events.size() == 1 && problem.request.signature.terminal
-               ? "contact 1 at 0.000 s: no motion comes to rest in one contact like this"
-               : "contact 1 at 0.000 s: no initial state gives an audible contact";
-  }
-  const auto level = static_cast<std::size_t>(farthest->level);
-  if (level + 1 >= events.size()) {
-    return fmt::format(
-        "the best motion's Score is {:.2f}, under {:.1f}: marks or object do not fit",
-        farthest->log.score(static_cast<int>(events.size())), kLeastScore);
-  }
-  const bool terminal = level + 2 == events.size() && problem.request.signature.terminal;
-  return fmt::format("contact {} at {:.3f} s cannot be met: {}", level + 2, events[level + 1].time,
-                     reasonOf(search.deathsAfter(farthest->level),
-                              events[level + 1].time - events[level].time, terminal));
 }
 
 /// Gathers takes over the passes.
@@ -135,7 +37,7 @@ class Takes {
       found.push_back(planOf(problem_, search.path(node)));
     }
     std::stable_sort(found.begin(), found.end(),
-                     [](const Plan& a, const Plan& b) { return a.score > b.score; });
+                     [](const Plan& a, const Plan& b) { return a.worth > b.worth; });
     plans_.clear();
     for (Plan& plan : found) {
       const bool isNew = std::all_of(plans_.begin(), plans_.end(), [&](const Plan& other) {
@@ -189,6 +91,102 @@ class TakesBudget {
   double work_ = 0, price_ = 0;
 };
 
+/// One call of plan().
+class ShootingRun {
+ public:
+  ShootingRun(const PlanRequest& request, const ShootingPlannerSettings& settings,
+              const Progress& progress)
+      : request_(request),
+        settings_(settings),
+        progress_(progress),
+        problem_(request, settings),
+        takes_(problem_),
+        hard_(problem_.targets.size(), false) {}
+
+  Result<std::vector<Plan>> run() {
+    // A budget of less than one pass makes that pass narrower.
+    const double budget = settings_.passes * request_.settings.effort;
+    const int passes = std::max(1, static_cast<int>(std::lround(budget)));
+    const double width = std::min(1.0, budget);
+    for (int pass = 0; pass < passes && !work_.spent() && !stop(); ++pass) {
+      if (!goesOn(pass, passes, work_.width(width + 0.5 * pass))) break;
+    }
+    if (progress_.stopRequested() && takes_.plans().empty()) {
+      return tl::unexpected<Error>({ErrorCode::kInterrupted, "interrupted", {}, {}});
+    }
+    return plans();
+  }
+
+ private:
+  bool stop() {
+    const double limit = request_.settings.timeLimitSeconds;
+    const std::chrono::duration<double> taken = Clock::now() - begin_;
+    if (limit > 0 && taken.count() > limit) cut_ = true;
+    return cut_ || progress_.stopRequested();
+  }
+
+  /// Makes a pass; whether another one may help.
+  bool goesOn(int pass, int passes, double wide) {
+    ShootingSearch search(problem_, static_cast<std::uint64_t>(pass), wide, hard_);
+    search.run([this] { return stop(); },
+               [&](double share) { progress_("search", (pass + share) / passes); });
+    takes_.add(search);
+    const bool found = !takes_.plans().empty();
+    if (!found && !learnsFrom(search) && pass > 0) return false;
+    const bool one = found && (pass > 0 || isGood(takes_.plans()[0]));
+    work_.count(wide, one);
+    return !(one && takes_.enough());
+  }
+
+  [[nodiscard]] bool isGood(const Plan& plan) const {
+    return plan.score >= settings_.goodScore && plan.bendMax <= settings_.goodBend;
+  }
+
+  /// Keeps the best partial motion, and where the search did not get on. False where luck does not
+  /// matter: other seeds meet the second contact no better.
+  bool learnsFrom(const ShootingSearch& search) {
+    const ShootingNode* farthest = search.farthest();
+    Plan plan;
+    if (farthest != nullptr) {
+      plan = planOf(problem_, search.path(*farthest));
+      for (int k = 0; k < settings_.hardContacts; ++k) {
+        hard_[static_cast<std::size_t>(std::max(0, farthest->level - k))] = true;
+      }
+    }
+    plan.failure = takes_.refused() ? "no motion that was found holds its audit"
+                                    : failureOf(problem_, search, farthest, kLeastScore);
+    partial_.push_back(std::move(plan));
+    return farthest != nullptr && (farthest->level > 0 || problem_.targets.size() == 1);
+  }
+
+  std::vector<Plan> plans() {
+    std::vector<Plan> plans = std::move(takes_.plans());
+    if (plans.empty()) {
+      const auto longest = std::max_element(
+          partial_.begin(), partial_.end(),
+          [](const Plan& a, const Plan& b) { return a.contacts.size() < b.contacts.size(); });
+      plans.push_back(longest != partial_.end() ? *longest : Plan{});
+      if (cut_) plans[0].failure = "the time limit was reached; " + plans[0].failure;
+    }
+    for (Plan& plan : plans) {
+      plan.timeLimitReached = cut_;
+      plan.bendCap = request_.settings.bendCap;
+    }
+    return plans;
+  }
+
+  const PlanRequest& request_;
+  const ShootingPlannerSettings& settings_;
+  const Progress& progress_;
+  Clock::time_point begin_ = Clock::now();
+  std::atomic<bool> cut_ = false;
+  ShootingProblem problem_;
+  Takes takes_;
+  TakesBudget work_;
+  std::vector<bool> hard_;  ///< ShootingSearch's
+  std::vector<Plan> partial_;
+};
+
 }  // namespace
 
 Result<std::vector<Plan>> ShootingPlanner::plan(const PlanRequest& request,
@@ -198,69 +196,8 @@ Result<std::vector<Plan>> ShootingPlanner::plan(const PlanRequest& request,
     return tl::unexpected<Error>({ErrorCode::kUsage, "the hybrid planner needs an event database",
                                   "--database", "build one with ifa database build"});
   }
-  const auto begin = Clock::now();
-  const double limit = request.settings.timeLimitSeconds;
-  const auto late = [&] {
-    return limit > 0 && std::chrono::duration<double>(Clock::now() - begin).count() > limit;
-  };
-  std::atomic<bool> cut = false;
-  const auto stop = [&] {
-    if (late()) cut = true;
-    return cut || progress.stopRequested();
-  };
   progress("learn", 0);
-  const ShootingProblem problem(request, settings_);
-  Takes takes(problem);
-  std::vector<Plan> partial;
-  // A budget of less than one pass makes that pass narrower.
-  const double budget = settings_.passes * request.settings.effort;
-  const int passes = std::max(1, static_cast<int>(std::lround(budget)));
-  const double width = std::min(1.0, budget);
-  TakesBudget work;
-  std::vector<bool> hard(problem.targets.size(), false);
-  for (int pass = 0; pass < passes && !work.spent() && !stop(); ++pass) {
-    const double wide = work.width(width + 0.5 * pass);
-    ShootingSearch search(problem, static_cast<std::uint64_t>(pass), wide, hard);
-    search.run(stop, [&](double share) { progress("search", (pass + share) / passes); });
-    takes.add(search);
-    if (takes.plans().empty()) {
-      const ShootingNode* farthest = search.farthest();
-      Plan plan;
-      if (farthest != nullptr) {
-        plan = planOf(problem, search.path(*farthest));
-        for (int k = 0; k < settings_.hardContacts; ++k) {
-          hard[static_cast<std::size_t>(std::max(0, farthest->level - k))] = true;
-        }
-      }
-      plan.failure = takes.refused() ? "no motion that was found holds its audit"
-                                     : failureOf(problem, search, farthest);
-      partial.push_back(std::move(plan));
-      // Other seeds meet the second contact no better; what can be done there does not depend on
-      // luck.
-      if (pass > 0 && (farthest == nullptr || (farthest->level == 0 && problem.targets.size() > 1)))
-        break;
-    }
-    const bool one =
-        !takes.plans().empty() && (pass > 0 || takes.plans()[0].score >= settings_.goodScore);
-    work.count(wide, one);
-    if (one && takes.enough()) break;
-  }
-  if (progress.stopRequested() && takes.plans().empty()) {
-    return tl::unexpected<Error>({ErrorCode::kInterrupted, "interrupted", {}, {}});
-  }
-  std::vector<Plan> plans = std::move(takes.plans());
-  if (plans.empty()) {
-    const auto longest = std::max_element(
-        partial.begin(), partial.end(),
-        [](const Plan& a, const Plan& b) { return a.contacts.size() < b.contacts.size(); });
-    plans.push_back(longest != partial.end() ? *longest : Plan{});
-    if (cut) plans[0].failure = "the time limit was reached; " + plans[0].failure;
-  }
-  for (Plan& plan : plans) {
-    plan.timeLimitReached = cut;
-    plan.bendCap = request.settings.bendCap;
-  }
-  return plans;
+  return ShootingRun(request, settings_, progress).run();
 }
 
 }  // namespace ifa

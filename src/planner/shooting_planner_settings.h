@@ -35,7 +35,8 @@ struct ShootingPlannerSettings {
   double restitutionRange = 0.2;  ///< relative, inside continuous and last events
   double dropPenalty = 6;         ///< log units for an event of weight 1 that was dropped
   int passes = 6;                 ///< searches with other seeds and wider beams, at most
-  double goodScore = 0.9;         ///< enough to stop after the first pass
+  double goodScore = 0.9;         ///< enough to stop after the first pass, ...
+  double goodBend = 1.2;          ///< ... if no bend is over this
   /// Contacts before one that a pass did not get past, in which the next passes follow so many
   /// times the beam for so many contacts as they would go on by themselves, and what a rhythm that
   /// fits is worth in rank.

@@ -8,6 +8,9 @@
 
 namespace ifa {
 
+/// A touch that comes within this of the time asked for is that touch, s.
+inline constexpr double kTouchPrecision = 1e-7;
+
 /// Not thread safe; make one per item of work.
 class ShootingWorker {
  public:

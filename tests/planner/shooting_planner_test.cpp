@@ -194,7 +194,7 @@ TEST(ShootingPlannerTest, TakesAreDifferentAndBestFirst) {
     expectSound(request, plans[i]);
     for (std::size_t j = 0; j < i; ++j) {
       EXPECT_TRUE(differentTakes(plans[i], plans[j]));
-      EXPECT_LE(plans[i].score, plans[j].score);
+      EXPECT_LE(plans[i].worth, plans[j].worth);
     }
   }
 }
@@ -227,7 +227,7 @@ TEST(ShootingPlannerTest, TheBestOfSeveralTakesIsTheOneThatIsFoundAlone) {
   // More than the first pass finds: a later one may find a better one, never a worse.
   request.settings.takes = 32;
   const auto many = plansOf(request);
-  EXPECT_GE(many[0].score, one[0].score);
+  EXPECT_GE(many[0].worth, one[0].worth);
   EXPECT_GT(many.size(), 4U);
 }
 
