@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""table1.py DIR: what there is of OBJECT-blend.json, OBJECT-printed.json and OBJECT-paper.json of
-`ifa evaluate` as one table, each row beside the paper's (Langlois and James 2014, Table 1; its
+"""table1.py DIR: what there is of OBJECT-blend.json, OBJECT-images.json, OBJECT-printed.json and
+OBJECT-paper.json of `ifa evaluate` as one table, each row beside the paper's (Langlois and James 2014, Table 1; its
 search times are minutes, made seconds)."""
 import json
 import pathlib
@@ -20,7 +20,8 @@ PAPER = {
     "d12": (9934621, 26.0, 4, 7, 24.2, 0.39),
     "d20": (9427739, 26.8, 9, 10, 37.7, 0.31),
 }
-VARIANTS = {"blend": "v_blend − v_i+, exact", "printed": "printed", "paper": "printed, paper's cut"}
+VARIANTS = {"blend": "v_blend − v_i+, exact", "images": "the same, with images",
+            "printed": "printed", "paper": "printed, paper's cut"}
 HEAD = ("| object | | events | mean n | solved | s to Score 0.3 | Score | without sound | f_v | "
         "bend, median | largest | arrival bend, median | largest |")
 
