@@ -191,7 +191,8 @@ void TouchSearch<R>::solve(const Mask& lanes, const Index& vertex, const R& numb
   const Vec<R> p = placeOf(vertex);
   const R h0 = a_.z + fromRows<R>(h0_, vertex), h1 = b_.z + fromRows<R>(h1_, vertex);
   const HeightCubic<R> height(h0, a_.rate(p), h1, b_.rate(p), length_);
-  const Mask open = lanes & !(isLate(height) | staysUp(height));
+  const Mask late = isLate(height), up = staysUp(height);
+  const Mask open = lanes & !(late | up);
   if (!anyLane(open)) return;
   const R s = height.firstTouch(open), begin(static_cast<double>(begin_));
   const R place = select(number == lowest.first, lowest.vertex, number);
