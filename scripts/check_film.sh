@@ -73,8 +73,8 @@ if compare 'd6 and clicks' 1280 720 240 1 6 800 >"$work/log" 2>&1; then
 fi
 clicks d20 d20-07
 check 'd20 and clicks' 1280 720 240 1 9 d20-07
-clicks Eraser Eraser-03
-check 'eraser and clicks' 960 540 240 1 4 Eraser-03
+clicks Eraser Eraser-04
+check 'eraser and clicks' 960 540 240 1 4 Eraser-04
 roll=/usr/share/gnubg/sounds/roll.wav
 if [ -f "$roll" ]; then
   sync roll d6 "$roll" examples/roll.txt
@@ -87,5 +87,5 @@ if [ -f "$sound.wav" ]; then
 fi
 
 film follow 320 180 60 "$work/d6-01" --camera follow
-film beside 480 180 60 "$work/d6-01" "$work/Eraser-03" --side-by-side
+film beside 480 180 60 "$work/d6-01" "$work/Eraser-04" --side-by-side
 echo 'camera that follows, two motions side by side: as ffprobe should see them'
