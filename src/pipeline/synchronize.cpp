@@ -89,11 +89,12 @@ Result<void> learn(Job& job, const SynchronizeSettings& settings, GraphShelf& sh
     if (!settings.fit || other.referenceImpulse > 0) continue;
     other.referenceImpulse = learnObject(job.body, other, cacheFolder(), progress).referenceImpulse;
   }
-  if (settings.fit) return {};
   SurfaceProperties& surface = job.body.definition.surfaces.at(job.surface);
-  const Learned learned = learnObject(job.body, surface, cacheFolder(), progress);
-  surface.referenceImpulse = learned.referenceImpulse;
-  job.outlook = learned.outlook;
+  if (!settings.fit) {
+    const Learned learned = learnObject(job.body, surface, cacheFolder(), progress);
+    surface.referenceImpulse = learned.referenceImpulse;
+    job.outlook = learned.outlook;
+  }
   if (settings.planner == "hybrid") {
     auto database = shelf.database(job.body, surface, job.surface, progress);
     if (!database) return tl::unexpected(database.error());
@@ -117,8 +118,7 @@ std::string auditFailure(const Motion& motion, const Body& body) {
                      failed->name, failed->worst, failed->unit, failed->time);
 }
 
-// Where two plans are as good, the one whose motion holds its audit is taken. Object and surface
-// are the job's, which the plan does not know.
+// Where the best plan's motion does not hold its audit, the next best plan is asked.
 bool holdsAudit(const PlanRequest& request, const Plan& plan) {
   const auto motion = buildMotion(request, plan, 0);
   return motion && auditFailure(*motion, *request.body).empty();

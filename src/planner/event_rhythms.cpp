@@ -41,7 +41,7 @@ class RhythmCost {
     return terminal(event) == wanted && (wanted || isLast(level_) || followed(event));
   }
 
-  /// @param least  what costs more need not be exact
+  /// @param most  what costs more need not be exact
   [[nodiscard]] double of(std::size_t event, double most) const {
     double cost = 0;
     for (std::size_t m = 0; m < kWeights.size() && !isLast(level_ + m) && cost < most; ++m) {
