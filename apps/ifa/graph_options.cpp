@@ -29,6 +29,10 @@ void addGraphOptions(CLI::App& command, GraphOptions& options) {
       ->capture_default_str()
       ->group(group);
   command
+      .add_flag("--processor-time", options.processorTime,
+                "--time-limit is of the processor time that the search takes")
+      ->group(group);
+  command
       .add_flag_callback(
           "--no-symmetry", [&options] { options.symmetry = false; },
           "take events as they are, not also as their images under the body's symmetry group")

@@ -31,7 +31,10 @@ struct GraphOptions {
   bool printedVelocity = false;  ///< eq. 3 compares v_blend with v_j+, as printed, not v_i+
   bool timeWarp = false;         ///< flights are blended, then shown at another pace (5.3.2)
   double earlyExit = 0.3;        ///< a motion of this Score ends the search, 0 to 1
-  bool symmetry = true;          ///< events also stand for their images (docs/symmetry.md)
+  /// The time limit, and the time to Score 0.3, are of the processor that searches, not the
+  /// clock's: for measurements on a machine that does other work too.
+  bool processorTime = false;
+  bool symmetry = true;  ///< events also stand for their images (docs/symmetry.md)
 };
 
 /// What is to be synchronised, and how. The defaults are those of `ifa sync`.

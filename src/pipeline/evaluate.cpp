@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <mutex>
 #include <thread>
 
+#include "base/stopwatch.h"
 #include "pipeline/synchronize_with.h"
 
 namespace ifa {
@@ -67,10 +67,9 @@ CaseOutcome runCase(const EvaluateSettings& settings, const EvaluationCase& what
                     const Progress& progress) {
   CaseOutcome outcome;
   outcome.what = what;
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const auto found = synchronizeWith(settingsFor(settings, what), shelf, progress);
-  outcome.wallSeconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  outcome.wallSeconds = watch.seconds();
   outcome.done = !progress.stopRequested();
   if (!found) {
     outcome.failure = found.error().text();

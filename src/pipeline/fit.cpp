@@ -4,18 +4,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <optional>
 
+#include "base/stopwatch.h"
 #include "pipeline/learned.h"
 #include "planner/shooting_planner_settings.h"
 
 namespace ifa {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr double kOff = 0.7;    ///< the right restitution over the given one, or inverse
 constexpr double kStep = 0.02;  ///< restitutions are multiples, so that caches serve again
@@ -51,7 +49,7 @@ bool better(const Attempt& one, const Attempt& other) {
 class Fitting {
  public:
   Fitting(const FitRequest& request, const Progress& progress)
-      : request_(request), progress_(progress), begin_(Clock::now()) {}
+      : request_(request), progress_(progress) {}
 
   Result<Fit> run() {
     const auto candidates = fitCandidates(request_, quiet());
@@ -76,7 +74,7 @@ class Fitting {
   [[nodiscard]] std::optional<double> secondsLeft() const {
     const double limit = request_.plan.settings.timeLimitSeconds;
     if (limit <= 0) return {};
-    return limit - std::chrono::duration<double>(Clock::now() - begin_).count();
+    return limit - watch_.seconds();
   }
   [[nodiscard]] bool over() const {
     return progress_.stopRequested() || (best_ && secondsLeft().value_or(1) <= 0);
@@ -170,7 +168,7 @@ class Fitting {
 
   const FitRequest& request_;
   const Progress& progress_;
-  Clock::time_point begin_;
+  Stopwatch watch_;
   std::vector<Attempt> looks_;
   std::optional<Attempt> best_;
   std::vector<FitCandidate> tried_;

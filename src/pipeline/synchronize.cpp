@@ -5,12 +5,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "audit/audit.h"
 #include "base/paths.h"
 #include "base/staged_folder.h"
+#include "base/stopwatch.h"
 #include "base/version.h"
 #include "body/object_file.h"
 #include "body/symmetry.h"
@@ -135,6 +135,7 @@ PlanRequest makeRequest(const SynchronizeSettings& settings, const Job& job) {
   request.settings.takes = settings.takes;
   request.settings.timeLimitSeconds = settings.timeLimitSeconds;
   request.settings.energyGain = settings.energyGain;
+  request.settings.timeOf = settings.graph.processorTime ? TimeOf::kThread : TimeOf::kClock;
   request.settings.earlyExit = settings.graph.earlyExit;
   request.outlook = job.outlook;
   request.graph = job.graph.get();
@@ -174,11 +175,11 @@ struct Search {
 
 Result<Search> search(const SynchronizeSettings& settings, const Job& job,
                       const Progress& progress) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   auto planned = plan(settings, job, progress);
   if (!planned) return tl::unexpected(planned.error());
   Search found{std::move(*planned), 0, false};
-  found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  found.seconds = watch.seconds();
   found.interrupted = progress.stopRequested();
   if (found.interrupted) {
     // What was finished is kept; a search that was cut off says nothing about what is possible.

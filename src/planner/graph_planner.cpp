@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 
+#include "base/stopwatch.h"
 #include "planner/check_request.h"
 #include "planner/graph_plan.h"
 #include "planner/plan_difference.h"
@@ -13,8 +13,6 @@
 namespace ifa {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// Plans found so far, best first, no two the same.
 class Found {
@@ -69,12 +67,9 @@ class GraphRun {
   }
 
  private:
-  [[nodiscard]] double elapsed() const {
-    return std::chrono::duration<double>(Clock::now() - begin_).count();
-  }
   bool stop() {
     const double limit = request_.settings.timeLimitSeconds;
-    if (limit > 0 && elapsed() > limit) cut_ = true;
+    if (limit > 0 && watch_.seconds() > limit) cut_ = true;
     return cut_ || progress_.stopRequested();
   }
   void keep(const GraphPath& path) {
@@ -82,7 +77,7 @@ class GraphRun {
     plan.solved = true;
     if (!request_.accepted(plan)) return;
     found_.add(std::move(plan));
-    if (secondsToGood_ < 0 && found_.reached(kGoodScore)) secondsToGood_ = elapsed();
+    if (secondsToGood_ < 0 && found_.reached(kGoodScore)) secondsToGood_ = watch_.seconds();
   }
 
   /// An event, and the motion that comes to it (5.5).
@@ -132,7 +127,7 @@ class GraphRun {
   const PlanRequest& request_;
   const GraphPlannerSettings& settings_;
   const Progress& progress_;
-  Clock::time_point begin_ = Clock::now();
+  Stopwatch watch_{request_.settings.timeOf};
   PathConnector connector_;
   Found found_;
   GraphPath farthest_;

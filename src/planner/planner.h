@@ -12,6 +12,7 @@
 
 #include "affinity/factors.h"
 #include "base/progress.h"
+#include "base/stopwatch.h"
 #include "body/body.h"
 #include "connection/placement.h"
 #include "graph/contact_graph.h"
@@ -30,12 +31,13 @@ inline constexpr double kGoodScore = 0.3;
 /// What the user may set for any planner.
 struct PlannerSettings {
   std::uint64_t seed = 1;
-  int takes = 1;                  ///< different plans wanted, 1 to 32
-  double timeLimitSeconds = 0;    ///< cuts the search off; 0: never
-  double energyGain = 0;          ///< eq. 10 relaxed to E (1 + gain), for music
-  double bendCap = 2;             ///< no contact may be changed by more
-  double effort = 1;              ///< scales the budget of counted work
-  double earlyExit = kGoodScore;  ///< "graph": a motion of this Score ends the search
+  int takes = 1;                   ///< different plans wanted, 1 to 32
+  double timeLimitSeconds = 0;     ///< cuts the search off; 0: never
+  TimeOf timeOf = TimeOf::kClock;  ///< "graph": whose seconds these are, and the plan's
+  double energyGain = 0;           ///< eq. 10 relaxed to E (1 + gain), for music
+  double bendCap = 2;              ///< no contact may be changed by more
+  double effort = 1;               ///< scales the budget of counted work
+  double earlyExit = kGoodScore;   ///< "graph": a motion of this Score ends the search
 };
 
 struct Plan;

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 
+#include "base/stopwatch.h"
 #include "planner/check_request.h"
 #include "planner/plan_difference.h"
 #include "planner/shooting_plan.h"
@@ -14,8 +14,6 @@
 namespace ifa {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// A plan below this Score is not called solved (docs/method.md 5).
 constexpr double kLeastScore = 0.5;
@@ -120,8 +118,7 @@ class ShootingRun {
  private:
   bool stop() {
     const double limit = request_.settings.timeLimitSeconds;
-    const std::chrono::duration<double> taken = Clock::now() - begin_;
-    if (limit > 0 && taken.count() > limit) cut_ = true;
+    if (limit > 0 && watch_.seconds() > limit) cut_ = true;
     return cut_ || progress_.stopRequested();
   }
 
@@ -178,7 +175,7 @@ class ShootingRun {
   const PlanRequest& request_;
   const ShootingPlannerSettings& settings_;
   const Progress& progress_;
-  Clock::time_point begin_ = Clock::now();
+  Stopwatch watch_;
   std::atomic<bool> cut_ = false;
   ShootingProblem problem_;
   Takes takes_;
