@@ -48,9 +48,9 @@ struct SynchronizeSettings {
   /// Also looks for the restitution, and where none is named the surface, that suit the sound best
   /// (docs/fitting.md). Not with "graph".
   bool fit = false;
-  std::string planner = "shoot";  ///< or "hybrid", "graph"
-  GraphOptions graph;             ///< for "graph"
-  std::filesystem::path objects;  ///< folder of the library; empty: the program's own
+  std::string planner = "hybrid";  ///< or "shoot", "graph"
+  GraphOptions graph;              ///< for "graph"
+  std::filesystem::path objects;   ///< folder of the library; empty: the program's own
   std::uint64_t seed = 1;
   int takes = 1;                 ///< different motions wanted, 1 to kMaxTakes
   double timeLimitSeconds = 0;   ///< cuts the search off; 0: never

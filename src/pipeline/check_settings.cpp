@@ -38,7 +38,7 @@ Result<void> checkSettings(const SynchronizeSettings& settings) {
   }
   if (settings.fit && settings.planner == "graph") {
     return usage("does not go with the planner graph, whose database holds one restitution", "fit",
-                 "use --planner shoot");
+                 "use --planner hybrid");
   }
   return checkRange(settings.preRollSeconds, 0, 10, "pre-roll");
 }

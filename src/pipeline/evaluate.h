@@ -20,7 +20,7 @@ enum class Parity { kEven, kOdd };
 
 struct EvaluateSettings {
   std::filesystem::path folder;  ///< one folder per object in it, named NAME or NAME@SURFACE
-  std::string planner = "shoot";
+  std::string planner = "hybrid";
   GraphOptions graph;  ///< for "graph"; a database that is named serves one object
   std::uint64_t seed = 1;
   double timeLimitSeconds = 0;   ///< per case; 0: never

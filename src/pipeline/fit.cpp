@@ -21,7 +21,7 @@ constexpr double kNear = 0.1, kBeside = 0.1;  ///< relative, of a second restitu
 constexpr double kEnough = 0.95;        ///< a first look with this Score is not followed by others
 constexpr std::size_t kWholePlans = 3;  ///< at most
 /// Work, in shares of what one plan may cost: all first looks together cost two passes, and
-/// a whole plan one pass less than it would alone.
+/// a whole plan one pass less than it would alone, unless it is at the given restitution.
 constexpr double kOnePass = 1.0 / ShootingPlannerSettings().passes;
 
 double onGrid(double restitution, const RestitutionRange& range) {
@@ -122,7 +122,8 @@ class Fitting {
                       plan.score >= ShootingPlannerSettings().goodScore);
   }
 
-  /// Best look first, then the others, then what was given.
+  /// Those that get a whole plan: best look first, then the others, and what was given, so that
+  /// whatever is solved without a fit is solved.
   [[nodiscard]] std::vector<FitCandidate> order(const std::vector<FitCandidate>& candidates) {
     std::stable_sort(looks_.begin(), looks_.end(), better);
     std::vector<FitCandidate> all;
@@ -134,8 +135,16 @@ class Fitting {
     };
     for (const Attempt& look : looks_) add(look.candidate);
     for (const FitCandidate& candidate : candidates) add(candidate);
+    const auto given = std::find_if(all.begin(), all.end(),
+                                    [this](const FitCandidate& one) { return isGiven(one); });
+    if (static_cast<std::size_t>(given - all.begin()) >= kWholePlans) all.resize(kWholePlans - 1);
     add({request_.first, request_.surfaces.at(request_.first).restitution});
     return all;
+  }
+
+  [[nodiscard]] bool isGiven(const FitCandidate& one) const {
+    return one.surface == request_.first &&
+           one.restitution == request_.surfaces.at(request_.first).restitution;
   }
 
   Result<void> planWhole(const std::vector<FitCandidate>& candidates) {
@@ -147,7 +156,8 @@ class Fitting {
         const double all = (static_cast<double>(i) + share) / static_cast<double>(count);
         if (stage == "search") progress_(stage, all);
       };
-      const auto good = attempt(candidates[i], 1 - kOnePass, request_.plan.settings.takes, inner);
+      const double effort = isGiven(candidates[i]) ? 1 : 1 - kOnePass;
+      const auto good = attempt(candidates[i], effort, request_.plan.settings.takes, inner);
       if (!good) return good;
     }
     return {};

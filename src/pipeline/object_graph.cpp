@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/object_graph.h"
 
+#include <cstdlib>
 #include <system_error>
 
 namespace ifa {
@@ -49,6 +50,22 @@ Result<EventDatabase> openFor(DatabaseRequest request, const std::optional<Event
   wanted.seed = there.seed;
   wanted.allSimulations = there.allSimulations;
   if (auto same = database->checkIdentity(wanted); !same) return tl::unexpected(same.error());
+  return database;
+}
+
+/// The same where there is no cache that could keep it: made, opened, and gone when it is closed.
+Result<EventDatabase> openUnkept(const DatabaseRequest& request, const Progress& progress) {
+  std::error_code code;
+  std::string folder = (fs::temp_directory_path(code) / "inverse-foley-XXXXXX").string();
+  if (code || mkdtemp(folder.data()) == nullptr) {
+    return badInput("there is neither a cache folder nor a temporary one for its database",
+                    request.body->definition.name, "set XDG_CACHE_HOME or TMPDIR");
+  }
+  const fs::path file = fs::path(folder) / "events.ifadb";
+  const auto built = buildDatabase(request, file, progress);
+  auto database =
+      built ? openFor(request, request.cut, file) : tl::unexpected<Error>(built.error());
+  fs::remove_all(folder, code);
   return database;
 }
 
@@ -102,7 +119,9 @@ Result<EventDatabase> GraphShelf::database(const Body& body, const SurfaceProper
   DatabaseRequest request = requestOf(body, surface, surfaceName, options_);
   request.simulations = kHybridSimulations;
   request.cut = EventCut::kAudible;
-  return openAt(request, request.cut, pathOf(request), progress);
+  auto database = openAt(request, request.cut, pathOf(request), progress);
+  if (database || !options_.database.empty() || progress.stopRequested()) return database;
+  return openUnkept(request, progress);
 }
 
 }  // namespace ifa

@@ -35,7 +35,7 @@ class GraphShelf {
                                                                 const Progress& progress);
 
   /// The database alone, for planner "hybrid": the one that is named, or the cache's of
-  /// kHybridSimulations drops.
+  /// kHybridSimulations drops. Where that cannot be kept, or cannot be read, it is made anew.
   [[nodiscard]] Result<EventDatabase> database(const Body& body, const SurfaceProperties& surface,
                                                const std::string& surfaceName,
                                                const Progress& progress) const;

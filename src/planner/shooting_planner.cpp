@@ -107,7 +107,7 @@ class ShootingRun {
     const int passes = std::max(1, static_cast<int>(std::lround(budget)));
     const double width = std::min(1.0, budget);
     for (int pass = 0; pass < passes && !work_.spent() && !stop(); ++pass) {
-      if (!goesOn(pass, passes, work_.width(width + 0.5 * pass))) break;
+      if (!goesOn(pass, passes, work_.width(std::min(settings_.widest, width + 0.5 * pass)))) break;
     }
     if (progress_.stopRequested() && takes_.plans().empty()) {
       return tl::unexpected<Error>({ErrorCode::kInterrupted, "interrupted", {}, {}});

@@ -34,7 +34,8 @@ struct ShootingPlannerSettings {
   double silentReach = 2.5;
   double restitutionRange = 0.2;  ///< relative, inside continuous and last events
   double dropPenalty = 6;         ///< log units for an event of weight 1 that was dropped
-  int passes = 6;                 ///< searches with other seeds and wider beams, at most
+  int passes = 10;                ///< searches with other seeds and wider beams, at most
+  double widest = 2.5;            ///< no pass is wider than so many times the first
   double goodScore = 0.9;         ///< enough to stop after the first pass, ...
   double goodBend = 1.2;          ///< ... if no bend is over this
   /// Contacts before one that a pass did not get past, in which the next passes follow so many

@@ -58,6 +58,11 @@ double keepComplete(std::vector<ShootingNode>& done, int takes) {
   return bound;
 }
 
+std::size_t firstOf(const std::vector<bool>& hard) {
+  const auto first = std::find(hard.begin(), hard.end(), true);
+  return first == hard.end() ? 0 : static_cast<std::size_t>(first - hard.begin());
+}
+
 }  // namespace
 
 ShootingProblem::ShootingProblem(const PlanRequest& planned, const ShootingPlannerSettings& tuning)
@@ -117,6 +122,7 @@ ShootingSearch::ShootingSearch(const ShootingProblem& problem, std::uint64_t pas
       pass_(pass),
       width_(width),
       hard_(std::move(hard)),
+      firstHard_(firstOf(hard_)),
       levels_(problem.targets.size()),
       deaths_(problem.targets.size()) {}
 
@@ -131,20 +137,26 @@ void ShootingSearch::run(const std::function<bool()>& stop,
       break;
     }
     if (level < hard_.size() && hard_[level]) {
-      keepBest(levels_[level], problem_.settings.hardBeam * problem_.settings.beam * width_);
+      keepBest(levels_[level], widthAt(level), problem_.settings.hardBeam);
       followOn(levels_[level], level);
     }
-    keepBest(levels_[level], problem_.settings.beam * width_);
+    keepBest(levels_[level], widthAt(level), 1);
     expandLevel(level, stop);
     progress(static_cast<double>(level + 1) / static_cast<double>(n));
   }
 }
 
+/// What a pass is to find lies at the hard contacts: up to there it is no wider than the first.
+double ShootingSearch::widthAt(std::size_t level) const {
+  return level < firstHard_ ? std::min(width_, 1.0) : width_;
+}
+
 void ShootingSearch::plantRoots(const std::function<bool()>& stop) {
   const auto& set = problem_.settings;
-  const auto fresh = static_cast<std::size_t>(set.firstContacts * width_);
+  const double width = widthAt(0);
+  const auto fresh = static_cast<std::size_t>(set.firstContacts * width);
   const bool few = static_cast<int>(levels_.size()) <= set.fewContacts;
-  const auto late = few ? static_cast<std::size_t>(set.lateContacts * width_) : 0;
+  const auto late = few ? static_cast<std::size_t>(set.lateContacts * width) : 0;
   const std::uint64_t seed = problem_.request.settings.seed + (pass_ << 32);
   const std::size_t sampled = fresh + late, count = sampled + problem_.starts.size(),
                     batches = (count + kBatch - 1) / kBatch;
@@ -170,8 +182,8 @@ void ShootingSearch::expandLevel(std::size_t level, const std::function<bool()>&
   const std::size_t n = events.size();
   // Where few motions are left, each gets more children: the work, not the hope, stays the same.
   const auto& set = problem_.settings;
-  const double few =
-      set.beam * width_ / static_cast<double>(std::max<std::size_t>(1, levels_[level].size()));
+  const double few = set.beam * widthAt(level) /
+                     static_cast<double>(std::max<std::size_t>(1, levels_[level].size()));
   const double effort = std::clamp(few, 1.0, set.mostEffort);
   for (std::size_t next = level + 1; next < n; ++next) {
     const bool last = next + 1 == n;
@@ -222,8 +234,10 @@ void ShootingSearch::followOn(std::vector<ShootingNode>& nodes, std::size_t leve
   });
 }
 
-void ShootingSearch::keepBest(std::vector<ShootingNode>& candidates, double beam) const {
+void ShootingSearch::keepBest(std::vector<ShootingNode>& candidates, double width,
+                              double wider) const {
   const auto& set = problem_.settings;
+  const double beam = wider * set.beam * width;
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const auto& a, const auto& b) { return a.rank > b.rank; });
   std::map<std::pair<int, int>, int> ofParent;
@@ -240,7 +254,6 @@ void ShootingSearch::keepBest(std::vector<ShootingNode>& candidates, double beam
   }
   const auto share = [&](int quota, std::size_t groups) {
     const double even = 1.5 * beam / static_cast<double>(std::max<std::size_t>(1, groups));
-    const double wider = beam / (set.beam * width_);
     return std::max(static_cast<int>(quota * wider), static_cast<int>(even));
   };
   const int perParent = share(set.perParent, parents.size());

@@ -93,13 +93,16 @@ class ShootingSearch {
  private:
   void plantRoots(const std::function<bool()>& stop);
   void expandLevel(std::size_t level, const std::function<bool()>& stop);
-  void keepBest(std::vector<ShootingNode>& candidates, double beam) const;
+  [[nodiscard]] double widthAt(std::size_t level) const;
+  /// @param wider  how many times the beam of this width
+  void keepBest(std::vector<ShootingNode>& candidates, double width, double wider) const;
   void followOn(std::vector<ShootingNode>& nodes, std::size_t level) const;
 
   const ShootingProblem& problem_;
   std::uint64_t pass_;
   double width_;
   std::vector<bool> hard_;
+  std::size_t firstHard_;                          ///< 0 when none is
   std::vector<std::vector<ShootingNode>> levels_;  ///< kept, by target
   std::vector<ShootingDeaths> deaths_;             ///< on the way out of each level
   std::vector<ShootingNode> complete_;

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <functional>
@@ -131,6 +132,20 @@ TEST_F(FitTest, EndsWithTheGivenOneWhereNothingElseDoes) {
   EXPECT_TRUE(fit.plans.front().solved);
   EXPECT_EQ(fit.request.surface.restitution, given);
   EXPECT_LE(work(planner), 3);
+}
+
+// A sound that takes all the passes there are is solved with --fit where it is solved without.
+TEST_F(FitTest, TheGivenOneGetsAllThatItWouldGetAlone) {
+  const double given = request_.surfaces.at("desk").restitution;
+  for (const double estimate : {0.05, 0.2}) {  // s, of the gap that the estimate goes by
+    request_.plan.signature.events[1].time = estimate;
+    const PlannerByFormula planner([](const SurfaceProperties&) { return 0.2; });
+    (void)fitWith(planner);
+    EXPECT_TRUE(std::any_of(planner.asked.begin(), planner.asked.end(), [&](const auto& asked) {
+      return asked.surface.restitution == given && asked.settings.effort == 1;
+    }));
+    EXPECT_LE(work(planner), 3);
+  }
 }
 
 TEST_F(FitTest, GivesAllTakesThatWereAskedFor) {

@@ -5,6 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <optional>
+
 #include "body/object_file.h"
 #include "pipeline/build_database.h"
 #include "support/temporary_folder.h"
@@ -109,6 +114,43 @@ TEST_F(ObjectGraph, NeedsItsFile) {
   const auto graph = get(shelf, eraser_);
   ASSERT_FALSE(graph);
   EXPECT_THAT(graph.error().text(), HasSubstr("nowhere.ifadb"));
+}
+
+/// The cache in another place, as long as this lives.
+class CacheAt {
+ public:
+  explicit CacheAt(const fs::path& place) {
+    if (const char* before = std::getenv("XDG_CACHE_HOME")) before_ = before;
+    ::setenv("XDG_CACHE_HOME", place.c_str(), 1);
+  }
+  ~CacheAt() {
+    before_ ? ::setenv("XDG_CACHE_HOME", before_->c_str(), 1) : ::unsetenv("XDG_CACHE_HOME");
+  }
+  CacheAt(const CacheAt&) = delete;
+  CacheAt& operator=(const CacheAt&) = delete;
+
+ private:
+  std::optional<std::string> before_;
+};
+
+// "hybrid" is the default: a home that cannot be written must not stop it.
+TEST_F(ObjectGraph, DatabaseIsTheSameWhereItCannotBeKept) {
+  const SurfaceProperties surface = withReferenceImpulse(eraser_, surfaceOf(eraser_), {});
+  const GraphShelf shelf({}, 0);
+  const auto open = [&](const fs::path& cache) {
+    const CacheAt here(cache);
+    return shelf.database(eraser_, surface, eraser_.definition.defaultSurface, {});
+  };
+  const auto kept = open(folder_ / "cache");
+  ASSERT_TRUE(kept) << kept.error().text();
+  EXPECT_EQ(kept->simulations(), kHybridSimulations);
+  EXPECT_FALSE(fs::is_empty(folder_ / "cache" / "inverse-foley"));
+  std::ofstream(folder_ / "file") << "no folder";
+  const auto unkept = open(folder_ / "file" / "cache");
+  ASSERT_TRUE(unkept) << unkept.error().text();
+  EXPECT_EQ(unkept->header().checksum, kept->header().checksum);
+  const auto of = [](const auto& database) { return database->values(kGap); };
+  EXPECT_TRUE(std::ranges::equal(of(unkept), of(kept)));
 }
 
 }  // namespace
