@@ -117,13 +117,14 @@ class Fitting {
 
   /// Of several takes only the first was looked for.
   [[nodiscard]] bool lookIsEnough() const {
-    const Plan& plan = best_->best();
-    return over() || (request_.plan.settings.takes == 1 && plan.solved &&
-                      plan.score >= ShootingPlannerSettings().goodScore);
+    return over() || (request_.plan.settings.takes == 1 && isGood(best_->best()));
+  }
+  [[nodiscard]] static bool isGood(const Plan& plan) {
+    return plan.solved && plan.score >= ShootingPlannerSettings().goodScore;
   }
 
   /// Those that get a whole plan: best look first, then the others, and what was given, so that
-  /// whatever is solved without a fit is solved.
+  /// a fit comes out no worse than what is planned without it.
   [[nodiscard]] std::vector<FitCandidate> order(const std::vector<FitCandidate>& candidates) {
     std::stable_sort(looks_.begin(), looks_.end(), better);
     std::vector<FitCandidate> all;
@@ -150,7 +151,7 @@ class Fitting {
   Result<void> planWhole(const std::vector<FitCandidate>& candidates) {
     const std::size_t count = std::min(kWholePlans, candidates.size());
     for (std::size_t i = 0; i < count && !over(); ++i) {
-      if (i > 0 && best_->best().solved) break;
+      if (i > 0 && isGood(best_->best())) break;
       Progress inner = progress_;
       inner.report = [&](std::string_view stage, double share) {
         const double all = (static_cast<double>(i) + share) / static_cast<double>(count);

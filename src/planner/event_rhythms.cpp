@@ -101,8 +101,9 @@ bool better(const RhythmMatch& a, const RhythmMatch& b) {
 std::vector<RhythmMatch> eventsInRhythm(const EventDatabase& database,
                                         const ContactSignature& signature, std::size_t level,
                                         std::size_t count) {
-  const RhythmCost cost(database, signature, level);
   std::vector<RhythmMatch> best;
+  if (count == 0) return best;
+  const RhythmCost cost(database, signature, level);
   double most = 1e300;
   for (std::size_t event = 0; event < database.events(); ++event) {
     if (!cost.serves(event)) continue;

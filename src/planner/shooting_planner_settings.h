@@ -20,6 +20,7 @@ struct ShootingPlannerSettings {
   int perEnergyBin = 50;
   double energyBin = 0.3;      ///< width of a bin, in log(energy)
   double spread = 0.35;        ///< standard deviation of a change, in units of the plausible region
+  double lookAheadWeight = 1;  ///< of what the way to the next contact costs, in rank
   double outlookWeight = 0.5;  ///< of the energy outlook beyond one standard deviation
   /// Bends over this cost more than their factor, so much times the square of what is over: one
   /// ugly contact is seen whatever the Score is.

@@ -82,7 +82,8 @@ ShootingProblem::ShootingProblem(const PlanRequest& planned, const ShootingPlann
   } else if (targets.size() > 1) {
     outlook = EnergyOutlook::learn(*planned.body, model, recorder, settings.outlookDrops);
   }
-  if (planned.database != nullptr && settings.aimedEvents > 0) aim();
+  const bool aims = settings.aimedEvents + settings.aimedEndings + settings.aimedRoots > 0;
+  if (planned.database != nullptr && aims) aim();
 }
 
 void ShootingProblem::aim() {

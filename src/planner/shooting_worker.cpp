@@ -301,7 +301,7 @@ void ShootingWorker::judge(ShootingNode& node) const {
   node.rank = node.worth();
   const auto k = static_cast<std::size_t>(node.level);
   if (k + 1 >= problem_.targets.size()) return;
-  node.rank -= lookAhead(node);
+  node.rank -= problem_.settings.lookAheadWeight * lookAhead(node);
   EnergyOutlook::Features features = problem_.features[k];
   features[4] += portableLog(node.firstAmplitude);
   const double off = std::abs(problem_.outlook.deviation(node.energyAfter, features)) - 1;

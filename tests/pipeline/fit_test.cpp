@@ -148,6 +148,17 @@ TEST_F(FitTest, TheGivenOneGetsAllThatItWouldGetAlone) {
   }
 }
 
+TEST_F(FitTest, IsNoWorseThanThePlanWithoutIt) {
+  const double given = request_.surfaces.at("desk").restitution;
+  request_.plan.signature.events = {{0, 0, 1, 0, 1}, {0.05, 0, 0.3, 0, 1}, {0.06, 0, 0.1, 0, 1}};
+  const PlannerByFormula planner(
+      [=](const SurfaceProperties& s) { return s.restitution == given ? 0.85 : 0.7; });
+  const Fit fit = fitWith(planner);
+  EXPECT_EQ(fit.plans.front().score, 0.85);
+  EXPECT_EQ(fit.request.surface.restitution, given);
+  EXPECT_LE(work(planner), 3);
+}
+
 TEST_F(FitTest, GivesAllTakesThatWereAskedFor) {
   request_.plan.settings.takes = 5;
   const PlannerByFormula planner(peakAt(0.8));
