@@ -32,13 +32,14 @@ constexpr int kNoQuota = 1 << 24;
 struct Variant {
   std::string name;
   ShootingPlannerSettings settings;
+  bool symmetry = true;
 };
 
 std::vector<Variant> variants() {
   const auto all = ShootingPlannerSettings::hybrid();
-  std::vector<Variant> list = {{"hybrid", all}};
+  std::vector<Variant> list = {{"hybrid", all, true}};
   const auto without = [&](const char* name, const auto& change) {
-    list.push_back({name, all});
+    list.push_back({name, all, true});
     change(list.back().settings);
   };
   without("no changes drawn at random (shooting)", [](auto& set) { set.children = 0; });
@@ -49,10 +50,10 @@ std::vector<Variant> variants() {
   without("no terminal connections", [](auto& set) { set.aimedEndings = 0; });
   without("no other transitions", [](auto& set) { set.aimedEvents = 0; });
   without("no first contacts of the database", [](auto& set) { set.aimedRoots = 0; });
-  without("no symmetry", [](auto& set) { set.symmetry = false; });
+  list.push_back({"no symmetry", all, false});
   without("no variety in the beam",
           [](auto& set) { set.perParent = set.perRoot = set.perEnergyBin = kNoQuota; });
-  list.push_back({"shoot (no database)", {}});
+  list.push_back({"shoot (no database)", {}, true});
   return list;
 }
 
@@ -113,6 +114,7 @@ void run(const Object& object, const Variant& variant, Tally& tally) {
     request.outlook = object.outlook;
     request.database = &object.database;
     request.symmetry = object.symmetry;
+    request.settings.symmetry = variant.symmetry;
     request.accepts = holdsAudit;
     const std::clock_t begin = std::clock();
     const auto plans = ifa::ShootingPlanner(variant.settings).plan(request, {});

@@ -6,13 +6,17 @@
 namespace ifa::cli {
 
 void addGraphOptions(CLI::App& command, GraphOptions& options) {
-  const std::string group = "Planner \"graph\"";
+  const std::string both = "Planners \"hybrid\" and \"graph\"";
   command
-      .add_option(
-          "--database", options.database,
-          "event database of this object, also for \"hybrid\" (default: the cache's, made on "
-          "first use)")
-      ->group(group);
+      .add_option("--database", options.database,
+                  "event database of this object (default: the cache's, made on first use)")
+      ->group(both);
+  command
+      .add_flag_callback(
+          "--no-symmetry", [&options] { options.symmetry = false; },
+          "take events as they are, not also as their images under the body's symmetry group")
+      ->group(both);
+  const std::string group = "Planner \"graph\"";
   command.add_option("--simulations", options.simulations, "size of the cache's database")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1000000000}))
       ->capture_default_str()
@@ -31,11 +35,6 @@ void addGraphOptions(CLI::App& command, GraphOptions& options) {
   command
       .add_flag("--processor-time", options.processorTime,
                 "--time-limit is of the processor time that the search takes")
-      ->group(group);
-  command
-      .add_flag_callback(
-          "--no-symmetry", [&options] { options.symmetry = false; },
-          "take events as they are, not also as their images under the body's symmetry group")
       ->group(group);
   command
       .add_flag("--printed-velocity", options.printedVelocity,

@@ -21,7 +21,7 @@ namespace ifa {
 /// Most motions that can be asked for at once.
 inline constexpr int kMaxTakes = 32;
 
-/// For planner "graph" (IFA section 5, docs/branch-and-bound.md).
+/// For planner "graph" (IFA section 5, docs/branch-and-bound.md), and what else uses a database.
 struct GraphOptions {
   std::filesystem::path database;     ///< event database of object and surface; empty: the cache's
   std::uint64_t simulations = 40000;  ///< of the cache's database, which is made where it is not
@@ -49,7 +49,7 @@ struct SynchronizeSettings {
   /// (docs/fitting.md). Not with "graph".
   bool fit = false;
   std::string planner = "hybrid";  ///< or "shoot", "graph"
-  GraphOptions graph;              ///< for "graph"
+  GraphOptions graph;              ///< for "graph"; database and symmetry also for "hybrid"
   std::filesystem::path objects;   ///< folder of the library; empty: the program's own
   std::uint64_t seed = 1;
   int takes = 1;                 ///< different motions wanted, 1 to kMaxTakes

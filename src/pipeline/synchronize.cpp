@@ -136,6 +136,7 @@ PlanRequest makeRequest(const SynchronizeSettings& settings, const Job& job) {
   request.settings.timeLimitSeconds = settings.timeLimitSeconds;
   request.settings.energyGain = settings.energyGain;
   request.settings.timeOf = settings.graph.processorTime ? TimeOf::kThread : TimeOf::kClock;
+  request.settings.symmetry = settings.graph.symmetry;
   request.settings.earlyExit = settings.graph.earlyExit;
   request.outlook = job.outlook;
   request.graph = job.graph.get();

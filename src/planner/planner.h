@@ -37,6 +37,7 @@ struct PlannerSettings {
   double energyGain = 0;           ///< eq. 10 relaxed to E (1 + gain), for music
   double bendCap = 2;              ///< no contact may be changed by more
   double effort = 1;               ///< scales the budget of counted work
+  bool symmetry = true;            ///< "hybrid": events of the database also stand for their images
   double earlyExit = kGoodScore;   ///< "graph": a motion of this Score ends the search
 };
 

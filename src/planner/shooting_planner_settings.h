@@ -52,7 +52,6 @@ struct ShootingPlannerSettings {
   int aimedBeam = 40;         ///< best motions that are aimed at candidates ...
   int aimedEndingBeam = 300;  ///< ... and at endings
   int aimedTries = 3;         ///< of which so many are flown to
-  bool symmetry = true;       ///< events are taken under all symmetries of the body
   double aimedCost = 10;      ///< log units that one may cost
 
   /// Of the planner "hybrid".

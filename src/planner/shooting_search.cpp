@@ -82,13 +82,13 @@ ShootingProblem::ShootingProblem(const PlanRequest& planned, const ShootingPlann
   } else if (targets.size() > 1) {
     outlook = EnergyOutlook::learn(*planned.body, model, recorder, settings.outlookDrops);
   }
-  const bool aims = settings.aimedEvents + settings.aimedEndings + settings.aimedRoots > 0;
-  if (planned.database != nullptr && aims) aim();
+  const bool aiming = settings.aimedEvents + settings.aimedEndings + settings.aimedRoots > 0;
+  if (planned.database != nullptr && aiming) aim();
 }
 
 void ShootingProblem::aim() {
   const EventDatabase& database = *request.database;
-  if (settings.symmetry) group = request.symmetry;
+  if (request.settings.symmetry) group = request.symmetry;
   if (group.empty()) group = {Eigen::Matrix3d::Identity()};
   std::vector<std::vector<RhythmMatch>> matches(targets.size());
   parallelFor(targets.size(), [&](std::size_t level) {

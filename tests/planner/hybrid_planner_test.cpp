@@ -2,9 +2,11 @@
 // The hybrid planner end to end, with small budgets.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 
 #include "base/parallel.h"
+#include "body/symmetry.h"
 #include "dynamics/energy.h"
 #include "graph/edge_weight.h"
 #include "planner/bodies.h"
@@ -140,6 +142,25 @@ TEST_F(HybridPlanner, TransitionsAloneRetraceADrop) {
   }
   EXPECT_GT(tried, 3);
   EXPECT_GE(2 * retraced, tried);
+}
+
+TEST_F(HybridPlanner, EventsAreTheirOwnImagesOnlyWhereSymmetryIsOff) {
+  ShootingPlannerSettings settings = smallHybrid();
+  settings.children = 0;  // so that there are transitions
+  const SymmetryGroup group = findSymmetry(test::die());
+  std::array<int, 2> images{};
+  for (const ContactSignature& signature : test::signatures(test::die(), 6, 3, 6)) {
+    for (const bool symmetry : {false, true}) {
+      PlanRequest asked = request(signature);
+      asked.symmetry = group.elements();
+      asked.settings.symmetry = symmetry;
+      for (const PlannedContact& contact : plans(asked, settings)[0].contacts) {
+        images.at(symmetry ? 1 : 0) += contact.source.symmetry != 0;
+      }
+    }
+  }
+  EXPECT_EQ(images[0], 0);
+  EXPECT_GT(images[1], 0);
 }
 
 TEST_F(HybridPlanner, SameWhateverTheThreads) {
