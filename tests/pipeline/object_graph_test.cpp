@@ -134,7 +134,7 @@ class CacheAt {
 };
 
 // "hybrid" is the default: a home that cannot be written must not stop it.
-TEST_F(ObjectGraph, DatabaseIsTheSameWhereItCannotBeKept) {
+TEST_F(ObjectGraph, DatabaseIsTheSameWhereItCannotBeKeptSlow) {
   const SurfaceProperties surface = withReferenceImpulse(eraser_, surfaceOf(eraser_), {});
   const GraphShelf shelf({}, 0);
   const auto open = [&](const fs::path& cache) {
