@@ -29,8 +29,11 @@ quietly() {
   }
 }
 
-# sync NAME OBJECT SOUND LABELS
-sync() { quietly "$ifa" sync "$3" --object "$2" --labels "$4" -o "$work/$1" --formats json; }
+# sync NAME OBJECT SOUND LABELS. What is checked is the film: how many bounces a motion has is a
+# matter of the planner, so one that needs nothing but the object.
+sync() {
+  quietly "$ifa" sync "$3" --object "$2" --labels "$4" --planner shoot -o "$work/$1" --formats json
+}
 
 # clicks OBJECT CASE: the same for a click at every contact of a case of the evaluation
 clicks() {
