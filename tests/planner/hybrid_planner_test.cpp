@@ -154,7 +154,8 @@ TEST_F(HybridPlanner, EventsAreTheirOwnImagesOnlyWhereSymmetryIsOff) {
       PlanRequest asked = request(signature);
       asked.symmetry = group.elements();
       asked.settings.symmetry = symmetry;
-      for (const PlannedContact& contact : plans(asked, settings)[0].contacts) {
+      const Plan plan = plans(asked, settings)[0];
+      for (const PlannedContact& contact : plan.contacts) {
         images.at(symmetry ? 1 : 0) += contact.source.symmetry != 0;
       }
     }
