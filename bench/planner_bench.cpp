@@ -16,11 +16,11 @@
 #include "base/paths.h"
 #include "body/object_file.h"
 #include "body/symmetry.h"
+#include "evaluation_cases.h"
 #include "motion/build_motion.h"
 #include "pipeline/learned.h"
 #include "pipeline/object_graph.h"
 #include "planner/shooting_planner.h"
-#include "signature/signature_json.h"
 
 namespace {
 
@@ -67,17 +67,6 @@ struct Object {
   std::vector<ifa::ContactSignature> cases;
 };
 
-std::vector<ifa::ContactSignature> casesOf(const std::string& object, int count) {
-  std::vector<ifa::ContactSignature> all;
-  for (int i = 0; i < count; ++i) {
-    const auto signature =
-        ifa::readSignature(fmt::format("{}/tests/evaluation/{}/{}-{:02d}.signature.json",
-                                       IFA_SOURCE_DIR, object, object, 2 * i + 1));
-    if (signature) all.push_back(*signature);
-  }
-  return all;
-}
-
 ifa::Result<Object> load(const std::string& name, int cases) {
   auto body = ifa::loadObject(name);
   if (!body) return tl::unexpected(body.error());
@@ -90,7 +79,7 @@ ifa::Result<Object> load(const std::string& name, int cases) {
   if (!database) return tl::unexpected(database.error());
   const ifa::SymmetryGroup group = ifa::findSymmetry(*body);
   return Object{std::move(*body),     surface,          learned.outlook,
-                std::move(*database), group.elements(), casesOf(name, cases)};
+                std::move(*database), group.elements(), ifa::bench::casesOf(name, cases)};
 }
 
 bool holdsAudit(const PlanRequest& request, const ifa::Plan& plan) {

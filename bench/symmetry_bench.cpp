@@ -16,10 +16,10 @@
 
 #include "audit/audit.h"
 #include "body/object_file.h"
+#include "evaluation_cases.h"
 #include "graph/contact_graph.h"
 #include "motion/build_motion.h"
 #include "planner/graph_planner.h"
-#include "signature/signature_json.h"
 
 namespace {
 
@@ -31,17 +31,6 @@ using ifa::PlanRequest;
 constexpr double kPreRoll = 0.3;  // s
 
 double processSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
-std::vector<ifa::ContactSignature> casesOf(const std::string& object, int count) {
-  std::vector<ifa::ContactSignature> all;
-  for (int i = 0; i < count; ++i) {
-    const auto signature =
-        ifa::readSignature(fmt::format("{}/tests/evaluation/{}/{}-{:02d}.signature.json",
-                                       IFA_SOURCE_DIR, object, object, 2 * i + 1));
-    if (signature) all.push_back(*signature);
-  }
-  return all;
-}
 
 struct Tally {
   int solved = 0, failedAudits = 0, images = 0, contacts = 0;
@@ -112,7 +101,7 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "{}\n", body ? database.error().text() : body.error().text());
     return EXIT_FAILURE;
   }
-  const auto cases = casesOf(argv[1], argc > 3 ? std::atoi(argv[3]) : 4);
+  const auto cases = ifa::bench::casesOf(argv[1], argc > 3 ? std::atoi(argv[3]) : 4);
   const long nodes = argc > 4 ? std::atol(argv[4]) : 2500;
   const auto plain = report(*body, *database, cases, nodes, false);
   const auto images = report(*body, *database, cases, nodes, true);
