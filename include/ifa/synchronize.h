@@ -12,6 +12,7 @@
 #include "ifa/contact_signature.h"
 #include "ifa/event_cut.h"
 #include "ifa/film.h"
+#include "ifa/midi_options.h"
 #include "ifa/motion.h"
 #include "ifa/progress.h"
 #include "ifa/result.h"
@@ -39,8 +40,12 @@ struct GraphOptions {
 
 /// What is to be synchronised, and how. The defaults are those of `ifa sync`.
 struct SynchronizeSettings {
-  std::filesystem::path sound;        ///< sound file, or a signature in JSON
-  std::filesystem::path labels;       ///< Audacity labels; empty: the contacts are detected
+  std::filesystem::path sound;  ///< sound file; or contacts alone: signature JSON, CSV, MIDI
+  /// Audacity labels, WAV with cue points, CSV, signature JSON, MIDI; empty: the sound's own cue
+  /// points, or where it has none the contacts are detected.
+  std::filesystem::path labels;
+  bool ignoreCues = false;            ///< the sound's cue points are no contacts
+  MidiOptions midi;                   ///< of a MIDI file, as sound or as labels
   std::string object;                 ///< name in the library, or path of an object file
   std::string surface;                ///< empty: the object's default
   std::optional<double> restitution;  ///< 0 to 0.95, instead of the surface's

@@ -4,24 +4,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <cstdint>
 
 #include "base/file.h"
+#include "signature/text_fields.h"
 
 namespace ifa {
 namespace {
 
 constexpr std::size_t kMaxBytes = std::size_t{16} << 20;
-constexpr std::size_t kMaxLabels = 100000;
 constexpr const char* kLayout = "a line is: start, tab, end, tab, text; times in seconds";
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \r\n");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \r\n") - first + 1);
-}
 
 /// The fields between tabs; several tabs in a row count as one, as in Audacity.
 std::vector<std::string_view> fieldsOf(std::string_view line) {
@@ -32,48 +24,6 @@ std::vector<std::string_view> fieldsOf(std::string_view line) {
     line.remove_prefix(std::min(end + 1, line.size()));
   }
   return fields;
-}
-
-/// A number with a dot or a comma, whatever the locale; "nan" and "inf" are numbers here, to be
-/// complained of by name.
-std::optional<double> numberOf(std::string_view field) {
-  std::string text(field);
-  std::replace(text.begin(), text.end(), ',', '.');
-  const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
-  const char* end = text.data() + text.size();
-  double value = 0;
-  const auto [stop, code] = std::from_chars(begin, end, value);
-  if (stop != end || code == std::errc::invalid_argument) return std::nullopt;
-  if (code == std::errc::result_out_of_range) return HUGE_VAL;
-  return value;
-}
-
-/// Bytes that follow the first byte of a UTF-8 character, or -1.
-int followersOf(unsigned char first) {
-  if (first < 0x80) return 0;
-  if (first >= 0xC2 && first < 0xE0) return 1;
-  if (first >= 0xE0 && first < 0xF0) return 2;
-  return first >= 0xF0 && first < 0xF5 ? 3 : -1;
-}
-
-bool isUtf8(std::string_view text) {
-  for (std::size_t i = 0; i < text.size();) {
-    const int followers = followersOf(static_cast<unsigned char>(text[i++]));
-    if (followers < 0 || text[i - 1] == '\0') return false;
-    std::uint32_t bits = 0;
-    for (int k = 0; k < followers; ++k, ++i) {
-      if (i >= text.size() || (static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) return false;
-      bits = bits << 6 | (static_cast<unsigned char>(text[i]) & 0x3FU);
-    }
-    const auto first =
-        static_cast<unsigned char>(text[i - static_cast<std::size_t>(followers) - 1]);
-    // Too long a form, a half of a UTF-16 pair, or beyond Unicode.
-    if (first == 0xE0 && bits < 0x800) return false;
-    if (first == 0xED && bits >= 0x800) return false;
-    if (first == 0xF0 && bits < 0x10000) return false;
-    if (first == 0xF4 && bits >= 0x10000) return false;
-  }
-  return true;
 }
 
 /// Reads line by line; keeps what one line must know of those before.
@@ -139,14 +89,6 @@ class Reader {
   std::vector<Label> labels_;
 };
 
-Result<void> checkText(std::string_view text, const std::string& place) {
-  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
-    return badInput("is UTF-16 text", place, "save the labels as UTF-8");
-  }
-  if (!isUtf8(text)) return badInput("is not UTF-8 text", place, "save the labels as UTF-8");
-  return {};
-}
-
 std::string oneLine(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c == '\t' || c == '\n' || c == '\r'; }, ' ');
@@ -161,16 +103,13 @@ std::string placeOf(const std::string& place, const Label& label, std::size_t in
 }  // namespace
 
 Result<std::vector<Label>> parseLabels(std::string_view text, const std::string& place) {
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-  if (auto good = checkText(text, place); !good) return tl::unexpected<Error>(good.error());
+  auto rest = checkText(text, place);
+  if (!rest) return tl::unexpected<Error>(rest.error());
   Reader reader(place);
-  while (!text.empty()) {
-    const auto end = std::min(text.find_first_of("\r\n"), text.size());
-    const std::size_t next = end + (text.substr(end).starts_with("\r\n") ? 2 : 1);
-    if (auto good = reader.add(text.substr(0, end)); !good) {
+  while (!rest->empty()) {
+    if (auto good = reader.add(takeLine(*rest)); !good) {
       return tl::unexpected<Error>(good.error());
     }
-    text.remove_prefix(std::min(next, text.size()));
   }
   auto labels = reader.take();
   if (labels.empty()) {
@@ -239,10 +178,7 @@ Result<void> checkLabels(const std::vector<Label>& labels, double soundDuration,
 
 bool labelsAreTerminal(const std::vector<Label>& labels) {
   if (labels.empty()) return true;
-  std::string text(trimmed(labels.back().text));
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  return !text.ends_with("non-terminal");
+  return !lowerAscii(trimmed(labels.back().text)).ends_with("non-terminal");
 }
 
 }  // namespace ifa

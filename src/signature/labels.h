@@ -2,6 +2,7 @@
 // Audacity label tracks, with all their oddities (docs/file-formats.md).
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -12,6 +13,9 @@
 
 namespace ifa {
 
+/// Most labels that a file may hold.
+inline constexpr std::size_t kMaxLabels = 100000;
+
 /// One label: a point (start = end) or a region of a sound.
 struct Label {
   double start = 0;  ///< s in the sound file
@@ -20,6 +24,10 @@ struct Label {
   /// Frequencies of a spectral selection, Hz; carried along, not used.
   std::optional<double> lowHz, highHz;
   int line = 0;  ///< in the file, from 1; 0 when it comes from elsewhere
+  /// What only some formats tell (SignatureEvent); none: the sound is asked. Any scale will do for
+  /// the amplitude, as the first one's becomes 1.
+  std::optional<double> amplitude, centroid;
+  double weight = 1;
 
   [[nodiscard]] bool isPoint() const { return end <= start; }
 };

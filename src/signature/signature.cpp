@@ -11,6 +11,9 @@
 namespace ifa {
 namespace {
 
+/// Longest signature, s, as in a signature file.
+constexpr double kMaxSeconds = 3600;
+
 /// The window in which a discrete event's peak is looked for. IFA section 3.
 constexpr double kPeakWindow = 0.020;
 
@@ -42,6 +45,54 @@ SignatureEvent eventAt(const Sound& sound, const Label& label, double nextStart,
   return event;
 }
 
+/// What the file itself tells of an event.
+SignatureEvent eventOf(const Label& label, double origin) {
+  SignatureEvent event;
+  event.time = label.start - origin;
+  event.duration = label.isPoint() ? 0 : label.end - label.start;
+  event.amplitude = label.amplitude.value_or(1);
+  // Decision: of a rattle that nobody has heard, the middle.
+  event.centroid = std::min(label.centroid.value_or(event.duration / 2), event.duration);
+  event.weight = label.weight;
+  return event;
+}
+
+bool tellTheirAmplitudes(const std::vector<Label>& labels) {
+  return std::all_of(labels.begin(), labels.end(),
+                     [](const Label& label) { return label.amplitude.has_value(); });
+}
+
+/// The largest says how loud both are together, and that they must be met.
+void join(Label& label, const Label& next) {
+  label.end = std::max(label.end, next.end);
+  if (next.amplitude) {
+    label.amplitude = std::max(label.amplitude.value_or(0), *next.amplitude);
+  }
+  label.centroid.reset();
+  label.weight = std::max(label.weight, next.weight);
+  // The terminal flag is said by the last label.
+  if (next.text.ends_with("terminal")) label.text = next.text;
+}
+
+Result<void> checkSpan(const std::vector<Label>& labels, const std::string& place) {
+  for (const Label& label : labels) {
+    // "Not inside" also catches what is no number.
+    if (label.start >= 0 && label.end <= kMaxSeconds) continue;
+    return badInput(fmt::format("the contact at {:.6f} to {:.6f} s is not within 0 to {:g} s",
+                                label.start, label.end, kMaxSeconds),
+                    place, "count times from the start, in seconds");
+  }
+  return checkLabels(labels, kMaxSeconds + 1, place);
+}
+
+/// Amplitudes become relative to the first one's.
+bool normalise(ContactSignature& signature) {
+  const double first = signature.events.front().amplitude;
+  if (!(first > 0)) return false;
+  for (SignatureEvent& event : signature.events) event.amplitude /= first;
+  return true;
+}
+
 }  // namespace
 
 std::vector<Label> mergeLabels(const std::vector<Label>& labels, double mergeGap) {
@@ -53,13 +104,12 @@ std::vector<Label> mergeLabels(const std::vector<Label>& labels, double mergeGap
       merged.push_back(label);
       continue;
     }
-    Label& last = merged.back();
-    last.end = std::max(last.end, label.end);
-    // The terminal flag is said by the last label.
-    if (label.text.ends_with("terminal")) last.text = label.text;
+    join(merged.back(), label);
   }
   for (Label& label : merged) {
-    if (label.end - label.start < limit) label.end = label.start;
+    if (label.end - label.start >= limit) continue;
+    label.end = label.start;
+    label.centroid.reset();
   }
   return merged;
 }
@@ -71,21 +121,59 @@ Result<ContactSignature> signatureFromLabels(const Sound& sound, const std::vect
     return tl::unexpected<Error>(good.error());
   }
   const auto merged = mergeLabels(labels, settings.mergeGap);
+  const bool told = tellTheirAmplitudes(merged);
   ContactSignature signature;
   signature.terminal = settings.terminal.value_or(labelsAreTerminal(labels));
   signature.firstContact = merged.front().start;
   for (std::size_t i = 0; i < merged.size(); ++i) {
     const double next = i + 1 < merged.size() ? merged[i + 1].start : sound.duration();
-    signature.events.push_back(eventAt(sound, merged[i], next, signature.firstContact));
+    SignatureEvent event = eventAt(sound, merged[i], next, signature.firstContact);
+    if (told) event.amplitude = *merged[i].amplitude;
+    if (merged[i].centroid) event.centroid = std::min(*merged[i].centroid, event.duration);
+    event.weight = merged[i].weight;
+    signature.events.push_back(event);
   }
-  const double first = signature.events.front().amplitude;
-  if (first <= 0) {
+  if (!normalise(signature)) {
     return badInput(
-        fmt::format("the sound is silent at the first contact, {:.6f} s", signature.firstContact),
+        fmt::format("{} at the first contact, {:.6f} s",
+                    told ? "the amplitude is 0" : "the sound is silent", signature.firstContact),
         place, "are these the labels of this sound?");
   }
-  for (SignatureEvent& event : signature.events) event.amplitude /= first;
   return signature;
+}
+
+Result<ContactSignature> signatureWithoutSound(const std::vector<Label>& labels,
+                                               const SignatureSettings& settings,
+                                               const std::string& place) {
+  if (auto good = checkSpan(labels, place); !good) return tl::unexpected<Error>(good.error());
+  const auto merged = mergeLabels(labels, settings.mergeGap);
+  ContactSignature signature;
+  signature.terminal = settings.terminal.value_or(labelsAreTerminal(labels));
+  signature.firstContact = merged.front().start;
+  for (const Label& label : merged) {
+    signature.events.push_back(eventOf(label, signature.firstContact));
+  }
+  if (!normalise(signature)) {
+    return badInput("the first contact's amplitude is 0, and all others are relative to it", place,
+                    "give it a larger one");
+  }
+  return signature;
+}
+
+std::vector<Label> labelsFromSignature(const ContactSignature& signature) {
+  std::vector<Label> labels;
+  for (const SignatureEvent& event : signature.events) {
+    Label label;
+    label.start = signature.firstContact + event.time;
+    label.end = label.start + event.duration;
+    label.text = fmt::format("c{}", labels.size() + 1);
+    label.amplitude = event.amplitude;
+    if (event.duration > 0) label.centroid = event.centroid;
+    label.weight = event.weight;
+    labels.push_back(std::move(label));
+  }
+  if (!labels.empty()) labels.back().text += signature.terminal ? " terminal" : " non-terminal";
+  return labels;
 }
 
 std::vector<Label> labelsFromContacts(const std::vector<DetectedContact>& contacts, bool terminal) {

@@ -24,13 +24,25 @@ struct SignatureSettings {
 
 /// The signature of `sound` with contacts where `labels` say, filtered as motions are; amplitudes
 /// and centroids from the sound (a discrete event: the largest |sample| from its start to 20 ms
-/// later or the next event's start; a continuous one: the maximum of its envelope).
+/// later or the next event's start; a continuous one: the maximum of its envelope). Where every
+/// label has an amplitude of its own, those count instead; and a label's own centroid does.
 /// @param place  the label file, named in errors
 /// Errors: kBadInput when checkLabels fails, or when the sound is silent at the first contact.
 [[nodiscard]] Result<ContactSignature> signatureFromLabels(const Sound& sound,
                                                            const std::vector<Label>& labels,
                                                            const SignatureSettings& settings = {},
                                                            const std::string& place = "labels");
+
+/// The signature of contacts that come without a sound (a score, a table), filtered likewise; a
+/// label without an amplitude has 1. Errors: kBadInput with the label for times that are out of
+/// order, overlap, or lie before 0 or after an hour.
+[[nodiscard]] Result<ContactSignature> signatureWithoutSound(const std::vector<Label>& labels,
+                                                             const SignatureSettings& settings,
+                                                             const std::string& place);
+
+/// The events as labels "c1", "c2"... in the sound's time, with all that is known of them; the last
+/// one says "terminal" or "non-terminal". signatureWithoutSound gives the same signature back.
+[[nodiscard]] std::vector<Label> labelsFromSignature(const ContactSignature& signature);
 
 /// The merge filter of method.md 2 on labels: gaps under `mergeGap` closed, what is then shorter
 /// than it made a point. The start and the text of a merged label are its first's, but a text that

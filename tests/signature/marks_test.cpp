@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is written in any format reads back as the same signature.
+#include "signature/marks.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include "signature/signature.h"
+#include "sound/synthetic_sound.h"
+#include "support/midi_bytes.h"
+#include "support/temporary_folder.h"
+
+namespace ifa {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr double kMicrosecond = 1.0000001e-6;
+
+/// Labels somewhere in a sound of ten seconds, on no sample in particular.
+std::vector<Label> drawLabels() {
+  const auto draws = *rc::gen::nonEmpty(
+      rc::gen::container<std::vector<std::uint32_t>>(rc::gen::arbitrary<std::uint32_t>()));
+  std::vector<Label> labels;
+  double time = draws[0] % 1000000 * 1.0000003e-6;
+  for (std::size_t i = 0; i < draws.size() && time < 9; ++i) {
+    Label label;
+    label.start = time;
+    label.end = time + (draws[i] % 3 == 0 ? 0.0101 + draws[i] % 99991 * 1.000007e-6 : 0);
+    label.text = "c, \"" + std::to_string(i) + "\"";
+    labels.push_back(label);
+    time = label.end + 0.011 + draws[i] / 1e10;
+  }
+  labels.back().text += draws[0] % 2 == 0 ? " terminal" : " non-terminal";
+  return labels;
+}
+
+Sound noise(int rate) {
+  Sound sound = test::silence(10, rate);
+  test::addNoise(sound, 0.5, 3);
+  return sound;
+}
+
+class ReadsBack : public testing::TestWithParam<std::pair<std::string, int>> {};
+
+TEST_P(ReadsBack, TheSameSignatureToTheMicrosecond) {
+  const auto& [name, rate] = GetParam();
+  const test::TemporaryFolder folder;
+  const Sound sound = noise(rate);
+  ASSERT_TRUE(writeWav(folder / "in.wav", sound));
+  EXPECT_TRUE(rc::check(name, [&, &name = name] {
+    const auto labels = drawLabels();
+    const auto before = signatureFromLabels(sound, labels);
+    RC_ASSERT(before.has_value());
+    RC_ASSERT(writeMarks(folder / name, folder / "in.wav", sound, labels).has_value());
+    const auto marks = readMarks(folder / name);
+    RC_ASSERT(marks.has_value());
+    const auto after = signatureFromLabels(sound, *marks);
+    RC_ASSERT(after.has_value());
+    RC_ASSERT(after->terminal == before->terminal);
+    RC_ASSERT(after->events.size() == before->events.size());
+    RC_ASSERT(std::abs(after->firstContact - before->firstContact) < kMicrosecond);
+    for (std::size_t i = 0; i < before->events.size(); ++i) {
+      const SignatureEvent &one = before->events[i], &other = after->events[i];
+      // Both ends of a span may be rounded.
+      RC_ASSERT(std::abs(other.time - one.time) < kMicrosecond);
+      RC_ASSERT(std::abs(other.duration - one.duration) < kMicrosecond);
+      RC_ASSERT(other.weight == one.weight);
+    }
+  }));
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, ReadsBack,
+                         testing::Values(std::pair("a.txt", 8000), std::pair("a.wav", 8000),
+                                         std::pair("a.wav", 44100), std::pair("a.csv", 8000),
+                                         std::pair("a.tsv", 8000), std::pair("a.json", 8000)));
+
+TEST(ReadMarks, TablesAndSignaturesKeepAmplitudesAndCentroids) {
+  const test::TemporaryFolder folder;
+  const Sound sound = noise(8000);
+  Label roll;
+  roll.start = 1;
+  roll.end = 1.5;
+  Label click;
+  click.start = click.end = 2;
+  const auto before = signatureFromLabels(sound, {roll, click}).value();
+  for (const char* name : {"a.csv", "a.tsv", "a.json"}) {
+    ASSERT_TRUE(writeMarks(folder / name, folder / "in.wav", sound, {roll, click}));
+    const auto after = signatureWithoutSound(readMarks(folder / name).value(), {}, name).value();
+    ASSERT_EQ(after.events.size(), 2U);
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_NEAR(after.events[i].amplitude, before.events[i].amplitude, 1e-8) << name;
+      EXPECT_NEAR(after.events[i].centroid, before.events[i].centroid, 1e-8) << name;
+    }
+  }
+}
+
+TEST(ReadMarks, GoesByContentBeforeItGoesByName) {
+  const test::TemporaryFolder folder;
+  test::writeText(folder / "midi.txt", test::midiFile(0, 96, {test::noteOn(96, 60, 127)}));
+  EXPECT_EQ(markFormatOf(folder / "midi.txt"), MarkFormat::kMidi);
+  EXPECT_EQ(readMarks(folder / "midi.txt")->front().start, 0.5);
+  test::writeText(folder / "labels", "0.5\t0.5\thit\n");
+  EXPECT_EQ(readMarks(folder / "labels")->front().text, "hit");
+  EXPECT_EQ(markFormatOf(folder / "none.MID"), MarkFormat::kMidi);
+  EXPECT_EQ(markFormatOf(folder / "none.Csv"), MarkFormat::kCsv);
+}
+
+TEST(ReadMarks, AWavWithoutCuePointsIsNoLabelFile) {
+  const test::TemporaryFolder folder;
+  ASSERT_TRUE(writeWav(folder / "a.wav", noise(8000)));
+  const auto marks = readMarks(folder / "a.wav");
+  ASSERT_FALSE(marks);
+  EXPECT_THAT(marks.error().text(), HasSubstr("holds no cue points"));
+}
+
+TEST(WriteMarks, MidiIsNotWritten) {
+  const test::TemporaryFolder folder;
+  const auto written = writeMarks(folder / "a.mid", folder / "in.wav", noise(8000), {Label{}});
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().code, ErrorCode::kUsage);
+}
+
+}  // namespace
+}  // namespace ifa
