@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `ifa detect`: the contacts of a sound, as a table or as an Audacity label track.
+// `ifa detect`: the contacts of a sound, shown as a table or written as marks.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "command.h"
-#include "signature/labels.h"
+#include "signature/marks.h"
 #include "signature/signature.h"
 #include "sound/onset_detector.h"
 #include "sound/sound.h"
@@ -54,7 +54,7 @@ int runDetect(const DetectOptions& options, CommandContext& context) {
     showTable(context.console, *contacts, labels);
     return context.succeed();
   }
-  if (const auto written = writeLabels(options.output, labels); !written) {
+  if (const auto written = writeMarks(options.output, options.sound, *sound, labels); !written) {
     return context.fail(written.error());
   }
   context.console.result(fmt::format("{} contact{} written to {}", labels.size(),
@@ -68,7 +68,10 @@ void addDetectCommand(CLI::App& app, CommandContext& context) {
   auto options = std::make_shared<DetectOptions>();
   CLI::App* command = app.add_subcommand("detect", "find the contacts of a sound");
   command->add_option("SOUND", options->sound, "WAV, FLAC, Ogg or MP3")->required();
-  command->add_option("-o,--out", options->output, "Audacity label track to write");
+  command->add_option(
+      "-o,--out", options->output,
+      "file to write, by its ending: .wav the sound with cue points, .csv or .json the "
+      "signature, else an Audacity label track");
   command->add_flag("--no-terminal", options->noTerminal,
                     "the last contact does not bring the object to rest");
   command

@@ -97,7 +97,7 @@ int syncSound(const SyncOptions& options, CommandContext& context) {
 int syncFolder(const SyncOptions& options, CommandContext& context) {
   if (!options.settings.labels.empty()) {
     return context.fail({ErrorCode::kUsage, "does not go with a folder of sounds", "--labels",
-                         "put NAME.txt beside NAME.wav"});
+                         "put NAME.txt (or .csv, .mid) beside NAME.wav"});
   }
   const auto sounds = findSounds(options.settings.sound);
   if (!sounds) return context.fail(sounds.error());
@@ -156,19 +156,33 @@ void addSearchOptions(CLI::App& command, SyncOptions& options) {
   addGraphOptions(command, settings.graph);
 }
 
+void addMidiOptions(CLI::App& command, MidiOptions& midi) {
+  command.add_option("--midi-track", midi.track, "only notes of this track of a MIDI file, from 1")
+      ->check(CLI::Range(1, 65535));
+  command.add_option("--midi-channel", midi.channel, "only notes of this channel")
+      ->check(CLI::Range(1, 16));
+  command.add_flag("--midi-durations", midi.durations,
+                   "notes are rattles that last until they end, not clicks");
+}
+
 }  // namespace
 
 void addSyncCommand(CLI::App& app, CommandContext& context) {
   auto options = std::make_shared<SyncOptions>();
   CLI::App* command = app.add_subcommand("sync", "make a motion that fits a contact sound");
   command
-      ->add_option("SOUND", options->settings.sound,
-                   "WAV, FLAC, Ogg or MP3; a signature in JSON; or a folder of them")
+      ->add_option(
+          "SOUND", options->settings.sound,
+          "WAV, FLAC, Ogg or MP3; contacts alone (MIDI, signature JSON, CSV); or a folder of them")
       ->required();
   command->add_option("--object", options->settings.object, "name (see ifa objects) or object file")
       ->required();
   command->add_option("--labels", options->settings.labels,
-                      "Audacity labels of the contacts (default: they are detected)");
+                      "contacts of the sound: Audacity labels, WAV with cue points, CSV, JSON or "
+                      "MIDI (default: its own cue points, else they are detected)");
+  command->add_flag("--ignore-cues", options->settings.ignoreCues,
+                    "detect the contacts though the sound has cue points");
+  addMidiOptions(*command, options->settings.midi);
   command->add_option("-o,--out", options->output, "folder for the results")->required();
   addSearchOptions(*command, *options);
   command

@@ -7,6 +7,7 @@
 #include <array>
 #include <cctype>
 #include <map>
+#include <set>
 #include <system_error>
 
 #include "base/version.h"
@@ -27,18 +28,38 @@ std::string lowerCase(std::string text) {
 
 // "a.signature.json" is a signature; other JSON files beside a sound are something else.
 std::string stemOf(const fs::path& path) {
-  static constexpr std::array kSounds = {".wav", ".flac", ".ogg", ".oga", ".mp3", ".aif", ".aiff"};
+  static constexpr std::array kSounds = {".wav", ".flac", ".ogg", ".oga", ".mp3",
+                                         ".aif", ".aiff", ".mid", ".midi"};
   const auto extension = lowerCase(path.extension().string());
   if (std::find(kSounds.begin(), kSounds.end(), extension) != kSounds.end()) return path.stem();
   const fs::path inner = path.stem();
   return extension == ".json" && inner.extension() == ".signature" ? inner.stem() : fs::path();
 }
 
+bool isMidi(const fs::path& path) {
+  const auto extension = lowerCase(path.extension().string());
+  return extension == ".mid" || extension == ".midi";
+}
+
 fs::path labelsBeside(const fs::path& sound) {
-  std::error_code code;
-  const fs::path labels = fs::path(sound).replace_extension(".txt");
-  const bool there = sound.extension() != ".json" && fs::is_regular_file(labels, code);
-  return there ? labels : fs::path();
+  if (sound.extension() == ".json" || isMidi(sound)) return {};
+  for (const char* ending : {".txt", ".csv", ".mid", ".midi"}) {
+    std::error_code code;
+    fs::path labels = fs::path(sound).replace_extension(ending);
+    if (fs::is_regular_file(labels, code)) return labels;
+  }
+  return {};
+}
+
+// A MIDI file beside a sound of the same name tells that one's contacts.
+void dropLabels(std::vector<BatchItem>& items) {
+  std::set<fs::path> sounds;
+  for (const BatchItem& item : items) {
+    if (!isMidi(item.sound)) sounds.insert(fs::path(item.sound).replace_extension());
+  }
+  std::erase_if(items, [&](const BatchItem& item) {
+    return isMidi(item.sound) && sounds.count(fs::path(item.sound).replace_extension()) > 0;
+  });
 }
 
 bool isNewer(const fs::path& path, fs::file_time_type than) {
@@ -108,7 +129,6 @@ Result<std::vector<BatchItem>> findSounds(const fs::path& folder) {
        entry.increment(code)) {
     const std::string stem = stemOf(entry->path());
     if (stem.empty() || !entry->is_regular_file()) continue;
-    ++stems[stem];
     items.push_back({stem, entry->path(), labelsBeside(entry->path())});
   }
   if (code) return badInput("cannot be read: " + code.message(), folder.string());
@@ -116,6 +136,8 @@ Result<std::vector<BatchItem>> findSounds(const fs::path& folder) {
     return badInput("there is no sound in this folder", folder.string(),
                     "sounds are looked for in the folder itself, not in folders below it");
   }
+  dropLabels(items);
+  for (const BatchItem& item : items) ++stems[item.name];
   for (BatchItem& item : items) {
     if (stems[item.name] > 1) item.name = item.sound.filename().string();
   }

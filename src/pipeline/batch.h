@@ -16,7 +16,7 @@ namespace ifa {
 struct BatchItem {
   std::string name;  ///< of its output folder
   std::filesystem::path sound;
-  std::filesystem::path labels;  ///< the .txt beside it; empty: detected
+  std::filesystem::path labels;  ///< the .txt, .csv or .mid beside it; empty: its own cues, or none
 };
 
 enum class BatchOutcome { kSolved, kSkipped, kFailed };
@@ -28,8 +28,9 @@ struct BatchResult {
   std::string message;  ///< why it failed; else one line about the motion
 };
 
-/// Sounds and signatures in `folder`, not deeper, in order of name. Two with the same stem keep
-/// their whole names. Errors: kBadInput when there is none.
+/// Sounds, MIDI files and signatures in `folder`, not deeper, in order of name; a MIDI file beside
+/// a sound of the same stem is that one's labels. Two with the same stem keep their whole names.
+/// Errors: kBadInput when there is none.
 [[nodiscard]] Result<std::vector<BatchItem>> findSounds(const std::filesystem::path& folder);
 
 /// Synchronises every sound of `sounds` into FOLDER/NAME. One that was solved before with the same

@@ -35,8 +35,8 @@ struct EvaluateSettings {
 struct EvaluationCase {
   std::string object, surface;  ///< surface empty: the object's default
   std::string name;
-  std::filesystem::path sound;   ///< NAME.wav (or another sound file), or NAME.signature.json
-  std::filesystem::path labels;  ///< NAME.txt; empty for a signature
+  std::filesystem::path sound;   ///< NAME.wav (or another sound), NAME.signature.json or .mid
+  std::filesystem::path labels;  ///< NAME.txt; empty for contacts alone
 };
 
 /// What came out of a case.

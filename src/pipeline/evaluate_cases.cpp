@@ -75,6 +75,9 @@ EvaluationCase caseOf(const fs::path& path) {
   if (file.size() > kSignature.size() && file.ends_with(kSignature)) {
     what.name = file.substr(0, file.size() - kSignature.size());
     what.sound = path;
+  } else if (path.extension() == ".mid") {
+    what.name = path.stem().string();
+    what.sound = path;
   } else if (isSoundFile(path)) {
     fs::path labels = path;
     labels.replace_extension(".txt");
@@ -114,10 +117,10 @@ Result<std::vector<EvaluationCase>> findCases(const EvaluateSettings& settings) 
     if (fs::is_directory(path, code)) addCasesOf(path, settings, cases);
   }
   if (!cases.empty()) return cases;
-  return badInput(settings.parity ? "holds no case of that parity" : "holds no case",
-                  settings.folder.string(),
-                  "put NAME.wav with NAME.txt, or NAME.signature.json, into a folder that is named "
-                  "after an object");
+  return badInput(
+      settings.parity ? "holds no case of that parity" : "holds no case", settings.folder.string(),
+      "put NAME.wav with NAME.txt, NAME.signature.json or NAME.mid into a folder that is "
+      "named after an object");
 }
 
 }  // namespace ifa

@@ -217,7 +217,7 @@ Result<Synchronization> run(const SynchronizeSettings& settings, Job& job,
                             const Progress& progress) {
   auto found = search(settings, job, progress);
   if (!found) return tl::unexpected(found.error());
-  Synchronization result{job.heard.signature, {}, found->interrupted, {}};
+  Synchronization result{job.heard.signature, {}, found->interrupted, job.heard.remarks};
   for (const Plan& take : found->fit.plans) {
     auto motion = makeTake(settings, job, *found, take);
     if (!motion) return tl::unexpected(motion.error());
@@ -271,7 +271,7 @@ Result<Synchronization> synchronizeToFolder(const SynchronizeSettings& settings,
   if (auto good = staged->commit("motion.json", outputNames()); !good) {
     return tl::unexpected(good.error());
   }
-  result->warnings = *told;
+  result->warnings.insert(result->warnings.end(), told->begin(), told->end());
   // A film that was not finished is missed; what was found is written all the same.
   result->interrupted = result->interrupted || progress.stopRequested();
   return result;

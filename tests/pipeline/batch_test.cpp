@@ -25,6 +25,21 @@ TEST(FindSounds, TakesSoundsAndSignaturesWithTheirLabels) {
   EXPECT_TRUE(items[2].labels.empty()) << "a signature has its contacts already";
 }
 
+TEST(FindSounds, TakesMidiAsASoundOrAsLabelsOfOne) {
+  const test::TemporaryFolder folder;
+  for (const char* name : {"a.mid", "b.wav", "b.mid", "c.wav", "c.csv", "c.mid", "d.MIDI"}) {
+    test::writeText(folder / name, "");
+  }
+  const auto items = findSounds(folder.path()).value();
+  ASSERT_EQ(items.size(), 4U);
+  EXPECT_EQ(items[0].sound, folder / "a.mid");
+  EXPECT_TRUE(items[0].labels.empty());
+  EXPECT_EQ(items[1].name, "b");
+  EXPECT_EQ(items[1].labels, folder / "b.mid");
+  EXPECT_EQ(items[2].labels, folder / "c.csv");
+  EXPECT_EQ(items[3].sound, folder / "d.MIDI");
+}
+
 TEST(FindSounds, KeepsSoundsOfTheSameStemApart) {
   const test::TemporaryFolder folder;
   for (const char* name : {"a.wav", "a.ogg", "b.wav"}) test::writeText(folder / name, "");

@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "signature/wav_cues.h"
 #include "support/clicks.h"
+#include "support/midi_bytes.h"
 #include "support/temporary_folder.h"
 
 namespace ifa {
@@ -80,6 +82,104 @@ TEST_F(Hear, NamesTheFileThatIsWrong) {
   heard = hear(settings_, 0.010);
   ASSERT_FALSE(heard);
   EXPECT_THAT(heard.error().place, HasSubstr("none.wav"));
+}
+
+TEST_F(Hear, TakesTheSoundsOwnCuePointsAndSaysSo) {
+  Label first, last;
+  first.start = first.end = 0.2;
+  last.start = 0.45;
+  last.end = 0.5;
+  last.text = "non-terminal";
+  const auto sound = readSound(settings_.sound).value();
+  ASSERT_TRUE(writeWavWithCues(folder_ / "b.wav", settings_.sound, sound, {first, last}));
+  settings_.sound = folder_ / "b.wav";
+  const auto heard = hear(settings_, 0.010).value();
+  ASSERT_EQ(heard.signature.events.size(), 2U);
+  EXPECT_NEAR(heard.signature.events[1].time, 0.25, 1e-9);
+  EXPECT_NEAR(heard.signature.events[1].duration, 0.05, 1e-9);
+  EXPECT_FALSE(heard.signature.terminal);
+  ASSERT_EQ(heard.remarks.size(), 1U);
+  EXPECT_THAT(heard.remarks[0], HasSubstr("--ignore-cues"));
+  settings_.ignoreCues = true;
+  const auto detected = hear(settings_, 0.010).value();
+  EXPECT_EQ(detected.signature.events.size(), 3U);
+  EXPECT_TRUE(detected.remarks.empty());
+  settings_.ignoreCues = false;
+  settings_.labels = folder_ / "a.txt";
+  test::writeClickLabels(settings_.labels, clicks_);
+  EXPECT_EQ(hear(settings_, 0.010)->signature.events.size(), 3U) << "labels go before cue points";
+}
+
+TEST_F(Hear, CuePointsThatAreNoContactsAreRefusedWithTheWayOut) {
+  Label early, beyond;
+  early.start = early.end = 0.2;
+  beyond.start = beyond.end = 1.0;
+  const auto sound = readSound(settings_.sound).value();
+  ASSERT_TRUE(writeWavWithCues(folder_ / "b.wav", settings_.sound, sound, {early, beyond}));
+  settings_.sound = folder_ / "b.wav";
+  const auto heard = hear(settings_, 0.010);
+  ASSERT_FALSE(heard);
+  EXPECT_EQ(heard.error().code, ErrorCode::kBadInput);
+  EXPECT_THAT(heard.error().text(), HasSubstr("b.wav, label 2"));
+  EXPECT_THAT(heard.error().remedy, HasSubstr("--ignore-cues"));
+}
+
+TEST_F(Hear, ReadsMidiWithoutASound) {
+  settings_.sound = folder_ / "a.mid";
+  // Two of the notes are one chord, struck a little apart.
+  test::writeText(settings_.sound,
+                  test::midiFile(0, 500,
+                                 {test::noteOn(500, 60, 100) + test::noteOn(250, 62, 25) +
+                                  test::noteOn(5, 64, 50) + test::noteOn(500, 65, 50, 10)}));
+  auto heard = hear(settings_, 0.010).value();
+  EXPECT_FALSE(heard.sound);
+  ASSERT_EQ(heard.signature.events.size(), 3U);
+  EXPECT_DOUBLE_EQ(heard.signature.firstContact, 0.5);
+  EXPECT_NEAR(heard.signature.events[1].time, 0.25, 1e-12);
+  EXPECT_NEAR(heard.signature.events[1].amplitude, 0.5, 1e-12);
+  EXPECT_EQ(heard.signature.events[1].duration, 0);
+  EXPECT_TRUE(heard.signature.terminal);
+  settings_.midi.channel = 10;
+  EXPECT_EQ(hear(settings_, 0.010)->signature.events.size(), 1U);
+  settings_.terminal = false;
+  EXPECT_FALSE(hear(settings_, 0.010)->signature.terminal);
+  settings_.labels = folder_ / "a.txt";
+  EXPECT_EQ(hear(settings_, 0.010).error().code, ErrorCode::kUsage);
+}
+
+TEST_F(Hear, TakesLabelsOfEveryKind) {
+  test::writeText(folder_ / "a.csv", "time,duration\n0.2,0\n0.45,0.03\n");
+  test::writeText(folder_ / "a.json", R"({"format": "inverse-foley-signature", "version": 1,
+    "first_contact": 0.2, "events": [{"time": 0}, {"time": 0.25, "amplitude": 0.9}]})");
+  test::writeText(folder_ / "a.mid",
+                  test::midiFile(0, 500, {test::noteOn(200, 60, 100) + test::noteOn(250, 60, 90)}));
+  for (const auto& [name, amplitude] :
+       {std::pair("a.csv", 0.5), std::pair("a.json", 0.9), std::pair("a.mid", 0.9)}) {
+    settings_.labels = folder_ / name;
+    const auto heard = hear(settings_, 0.010);
+    ASSERT_TRUE(heard) << heard.error().text();
+    EXPECT_TRUE(heard->sound) << name;
+    ASSERT_EQ(heard->signature.events.size(), 2U) << name;
+    EXPECT_NEAR(heard->signature.firstContact, 0.2, 1e-9) << name;
+    EXPECT_NEAR(heard->signature.events[1].time, 0.25, 1e-9) << name;
+    EXPECT_NEAR(heard->signature.events[1].amplitude, amplitude, 2e-3) << name;
+  }
+}
+
+TEST_F(Hear, ReadsATableWithoutASound) {
+  settings_.sound = folder_ / "a.csv";
+  test::writeText(settings_.sound, "1.5,0,0.5\n1.75,0.1,0.25,non-terminal\n");
+  const auto heard = hear(settings_, 0.010).value();
+  ASSERT_EQ(heard.signature.events.size(), 2U);
+  EXPECT_EQ(heard.signature.events[1].amplitude, 0.5);
+  EXPECT_NEAR(heard.signature.events[1].centroid, 0.05, 1e-12);
+  EXPECT_FALSE(heard.signature.terminal);
+  for (const char* bad : {"4000\n", "2\n1\n", "1,0,0\n2,0,1\n"}) {
+    test::writeText(settings_.sound, bad);
+    const auto refused = hear(settings_, 0.010);
+    ASSERT_FALSE(refused) << bad;
+    EXPECT_THAT(refused.error().text(), HasSubstr("a.csv"));
+  }
 }
 
 TEST(WithLeadingSilence, MovesAllChannels) {
