@@ -15,6 +15,8 @@
 #include <system_error>
 #include <utility>
 
+#include "base/child_process.h"
+#include "body/mesh_bytes.h"
 #include "body/mesh_report.h"
 
 namespace ifa {
@@ -200,9 +202,22 @@ void configure(Assimp::Importer& importer) {
 
 }  // namespace
 
-Result<Mesh> importMesh(const std::filesystem::path& path, double metresPerUnit) {
+namespace {
+
+/// Processor time that a file of so many bytes may take, s; those over which assimp does not come
+/// to an end are small. A large one takes a second for some megabytes.
+double mostSeconds(const std::filesystem::path& path) {
+  std::error_code code;
+  const std::uintmax_t bytes = std::filesystem::file_size(path, code);
+  return 1 + (code ? 0 : static_cast<double>(bytes) * 1e-5);
+}
+
+constexpr const char* kOtherFormat =
+    "use OBJ, STL, PLY, glTF, 3MF, FBX or another format that assimp reads";
+
+/// As the file has it, triangles without area included.
+Result<Mesh> readScene(const std::filesystem::path& path, double metresPerUnit) {
   const std::string place = path.string();
-  if (const auto good = checkFile(path); !good) return tl::unexpected(good.error());
   Assimp::Importer importer;
   configure(importer);
   const aiScene* scene = importer.ReadFile(
@@ -210,20 +225,39 @@ Result<Mesh> importMesh(const std::filesystem::path& path, double metresPerUnit)
   if (scene == nullptr || scene->mNumMeshes == 0) {
     const std::string why = importer.GetErrorString();
     return badInput("is not a mesh that can be read" + (why.empty() ? "" : ": " + why), place,
-                    "use OBJ, STL, PLY, glTF, 3MF, FBX or another format that assimp reads");
+                    kOtherFormat);
   }
   const std::string extension = path.extension().string();
   SceneGatherer gatherer(*scene, metresPerUnit, extension == ".gltf" || extension == ".glb");
   if (!gatherer.gather()) return tooManyTriangles(place);
-  importer.FreeScene();
+  return std::move(gatherer.mesh);
+}
+
+}  // namespace
+
+Result<Mesh> importMesh(const std::filesystem::path& path, double metresPerUnit) {
+  const std::string place = path.string();
+  if (const auto good = checkFile(path); !good) return tl::unexpected(good.error());
+  // assimp ends the program over some damaged files, and never ends over others.
+  const auto bytes =
+      callInChild([&] { return meshBytes(readScene(path, metresPerUnit)); }, mostSeconds(path));
+  if (!bytes) {
+    return badInput("is not a mesh that can be read: assimp fails over it", place,
+                    "export it again, or in another format");
+  }
+  auto mesh = meshFromBytes(*bytes);
+  if (!mesh) {
+    if (mesh.error().place.empty()) mesh.error().place = place;
+    return mesh;
+  }
   Eigen::AlignedBox3d box;
-  for (const Vector3d& vertex : gatherer.mesh.vertices) {
+  for (const Vector3d& vertex : mesh->vertices) {
     if (!vertex.allFinite()) return badInput("a vertex is not a finite number", place);
     box.extend(vertex);
   }
-  if (gatherer.mesh.triangles.empty()) return badInput("holds no triangles", place);
-  dropUnusedMaterials(gatherer.mesh);
-  return weldVertices(gatherer.mesh, kWeldRelative * box.sizes().maxCoeff());
+  if (mesh->triangles.empty()) return badInput("holds no triangles", place);
+  dropUnusedMaterials(*mesh);
+  return weldVertices(*mesh, kWeldRelative * box.sizes().maxCoeff());
 }
 
 }  // namespace ifa

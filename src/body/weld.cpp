@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Welding of vertices, by a grid of cells much larger than the tolerance.
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <unordered_map>
@@ -55,7 +56,10 @@ class VertexGrid {
     Cell cell = {};
     for (std::size_t i = 0; i < 3; ++i) {
       const double coordinate = p[static_cast<Eigen::Index>(i)] + shift;
-      cell[i] = static_cast<std::int64_t>(std::floor(coordinate / cell_));
+      // What is too far away to count its cells shares the last one.
+      constexpr double kLast = 4e18;
+      cell[i] =
+          static_cast<std::int64_t>(std::clamp(std::floor(coordinate / cell_), -kLast, kLast));
     }
     return cell;
   }

@@ -6,10 +6,12 @@
 
 #include <algorithm>
 
+#include "body/mesh_bytes.h"
 #include "body/mesh_report.h"
 #include "body/mesh_text.h"
 #include "mesh_files.h"
 #include "shapes.h"
+#include "support/temporary_folder.h"
 
 namespace ifa {
 namespace {
@@ -101,6 +103,56 @@ TEST_F(MeshFiles, WhatIsNoMeshIsTold) {
   }
   EXPECT_THAT(fault(file("nan.obj", "v 0 0 0\nv 1 0 nan\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n")),
               HasSubstr("nan.obj"));
+}
+
+TEST_F(MeshFiles, WhatAssimpNeverEndsWithIsRefused) {
+  // Found by fuzzing: a header whose properties have lost their names.
+  const auto damaged = fs::path(IFA_SOURCE_DIR) / "tests/fuzz/corpus/mesh/slow_ply";
+  const auto mesh = importMesh(file("a.ply", test::readText(damaged).substr(1)), 1);
+  ASSERT_FALSE(mesh);
+  EXPECT_EQ(mesh.error().code, ErrorCode::kBadInput);
+  EXPECT_THAT(mesh.error().text(), HasSubstr("a.ply: is not a mesh that can be read"));
+  EXPECT_FALSE(mesh.error().remedy.empty());
+}
+
+TEST(Weld, VerticesAnywhereAreNoHarm) {
+  Mesh mesh = shapes::box({1, 1, 1}, {0, 0, 0});
+  mesh.vertices.back() = {1e300, -1e300, 0};
+  EXPECT_EQ(weldVertices(mesh, 1e-6).vertices.size(), mesh.vertices.size());
+}
+
+TEST(MeshBytes, ReadBackTheSame) {
+  Mesh box = shapes::box({1, 2, 3}, {0, 0, 0});
+  box.materials = {{"red", {0.5, 0.1, 0.02, 1}, 0.3, 0}, {"", {0.4, 0.4, 0.5, 1}, 0.2, 1}};
+  box.triangleMaterial.assign(12, 1);
+  const std::string bytes = meshBytes(box);
+  const auto back = meshFromBytes(bytes);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->vertices, box.vertices);
+  EXPECT_EQ(back->triangles, box.triangles);
+  EXPECT_EQ(back->triangleMaterial, box.triangleMaterial);
+  ASSERT_EQ(back->materials.size(), 2u);
+  EXPECT_EQ(back->materials[0].name, "red");
+  EXPECT_EQ(back->materials[1].colour, box.materials[1].colour);
+  const auto error = meshFromBytes(meshBytes(badInput("what", "where", "remedy")));
+  ASSERT_FALSE(error);
+  EXPECT_EQ(error.error().text(), "where: what (remedy)");
+}
+
+TEST(MeshBytes, DamagedOnesAreRefused) {
+  Mesh box = shapes::box({1, 2, 3}, {0, 0, 0});
+  box.materials.emplace_back();
+  box.triangleMaterial.assign(12, 0);
+  const std::string bytes = meshBytes(box);
+  ASSERT_TRUE(meshFromBytes(bytes));
+  for (std::size_t cut = 0; cut < bytes.size(); cut += 7) {
+    EXPECT_FALSE(meshFromBytes(bytes.substr(0, cut))) << cut;
+  }
+  box.triangles[3][1] = 8;
+  EXPECT_FALSE(meshFromBytes(meshBytes(box)));
+  box.triangles[3][1] = 0;
+  box.triangleMaterial[5] = 1;
+  EXPECT_FALSE(meshFromBytes(meshBytes(box)));
 }
 
 TEST(Weld, JoinsWithinTheToleranceAndNotBeyond) {
