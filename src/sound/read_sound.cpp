@@ -92,11 +92,25 @@ std::size_t firstBad(const std::vector<float>& values, std::size_t from) {
   return static_cast<std::size_t>(bad - values.begin());
 }
 
+constexpr std::size_t kBlockFrames = 1 << 14;
+
+/// Room for what the header promises, as far as the file can hold it at a byte a sample: a vector
+/// that grows holds an hour of sound twice.
+void makeRoom(const SF_INFO& info, const std::filesystem::path& path, std::vector<float>& values) {
+  std::error_code code;
+  const std::uintmax_t bytes = std::filesystem::file_size(path, code);
+  if (code || info.frames <= 0) return;
+  const double promised = static_cast<double>(info.frames) * info.channels;
+  const auto block = kBlockFrames * static_cast<std::size_t>(info.channels);
+  if (promised <= static_cast<double>(bytes)) {
+    values.reserve(static_cast<std::size_t>(promised) + block);
+  }
+}
+
 /// All channels into `values`, believing the data and not the header's count of frames.
 Result<void> decode(SNDFILE* file, const Sound& sound, const SoundLimits& limits,
                     const std::string& place, std::vector<float>& values) {
   const auto channels = static_cast<std::size_t>(sound.channels);
-  constexpr std::size_t kBlockFrames = 1 << 14;
   for (;;) {
     const std::size_t used = values.size();
     values.resize(used + kBlockFrames * channels);
@@ -167,6 +181,7 @@ Result<Sound> readSound(const std::filesystem::path& path, const SoundLimits& li
   sound.channels = info.channels;
   sound.format = formatOf(info.format);
   std::vector<float> values;
+  makeRoom(info, path, values);
   if (auto good = decode(file.get(), sound, limits, place, values); !good) {
     return tl::unexpected<Error>(good.error());
   }
