@@ -1,111 +1,235 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Scores `ifa detect` against labelled recordings: F-measure per folder, as docs/detection.md tells.
+"""Scores `ifa detect` against labelled sounds, beside aubio's onset detectors (docs/detection.md).
 
-    scripts/evaluate_detection.py build/release/bin/ifa RECORDINGS [-v] [-- options of ifa detect]
+    scripts/evaluate_detection.py build/release/bin/ifa SOUNDS [-v] [--aubio [METHOD...]] [--cross]
+        [--confidence]
 
-RECORDINGS holds one folder per kind of recording, with NAME.wav and NAME.txt anywhere below. Labels
-and detected contacts are both merged at 10 ms before they are compared.
+SOUNDS holds one folder per kind of sound, with NAME.wav and NAME.txt anywhere below. Labels and
+detected contacts are both merged at 10 ms before they are compared. In sounds that were made
+(make_sounds), a contact labelled "hidden" need not be found, and who finds it or a "blow" that is no
+contact by the definition is not wrong.
 """
 import argparse
+import concurrent.futures
+import os
 import pathlib
 import statistics
 import subprocess
 import sys
-import tempfile
 
 MERGE_GAP = 0.010
+END_TOLERANCE = 0.040
+RISES = [4, 4.5, 5, 5.25, 5.5, 6, 6.5, 7, 8]  # what --cross chooses from, dB
+METHODS = ["energy", "hfc", "complex", "phase", "specdiff", "kl", "mkl", "specflux"]
+THRESHOLDS = [0.1, 0.3, 0.6, 1.0]
 
 
-def read_labels(path):
-    labels = []
-    for line in path.read_text(encoding="utf-8").splitlines():
-        start, end = line.split("\t")[:2]
-        labels.append((float(start), float(end)))
-    return labels
+class Case:
+    def __init__(self, path, root):
+        self.path = path
+        self.kind = path.relative_to(root).parts[0]
+        self.events, self.hidden, self.blows = [], [], []
+        for line in path.with_suffix(".txt").read_text(encoding="utf-8").splitlines():
+            start, end, *text = line.split("\t")
+            event = (float(start), float(end))
+            if text == ["blow"]:
+                self.blows.append(event)
+            else:
+                self.events.append(event)
+                self.hidden.append(bool(text) and text[0].startswith("hidden"))
+        self.events, groups = merged(self.events)
+        self.hidden = [all(self.hidden[i] for i in group) for group in groups]
 
 
 def merged(labels):
-    """(start, end) of every event; an event shorter than the gap is a point."""
-    events = []
-    for start, end in labels:
+    """(start, end) of every event, one shorter than the gap being a point; and of what each is made."""
+    events, groups = [], []
+    for i, (start, end) in enumerate(labels):
         if events and start - events[-1][1] < MERGE_GAP - 1e-9:
             events[-1] = (events[-1][0], max(end, events[-1][1]))
+            groups[-1].append(i)
         else:
             events.append((start, end))
-    return [(s, e if e - s >= MERGE_GAP - 1e-9 else s) for s, e in events]
+            groups.append([i])
+    return [(s, e if e - s >= MERGE_GAP - 1e-9 else s) for s, e in events], groups
 
 
 def match(labelled, detected, tolerance):
-    """Signed errors of the pairs, one to one, nearest first."""
-    pairs = sorted((abs(a - b), i, j) for i, a in enumerate(labelled)
-                   for j, b in enumerate(detected) if abs(a - b) <= tolerance)
-    used_i, used_j, errors = set(), set(), []
+    """{label: detected}, one to one, nearest first."""
+    pairs = sorted((abs(a - b), i, j) for i, (a, _) in enumerate(labelled)
+                   for j, (b, _) in enumerate(detected) if abs(a - b) <= tolerance)
+    found, used = {}, set()
     for _, i, j in pairs:
-        if i not in used_i and j not in used_j:
-            used_i.add(i)
-            used_j.add(j)
-            errors.append(detected[j] - labelled[i])
-    return errors
+        if i not in found and j not in used:
+            found[i] = j
+            used.add(j)
+    return found
 
 
-def detect(program, sound, options, folder):
-    output = pathlib.Path(folder) / "labels.txt"
-    subprocess.run([program, "detect", str(sound), "-o", str(output), *options], check=True,
-                   stdout=subprocess.DEVNULL)
-    return read_labels(output)
+def detect(program, sound, options):
+    """(start, end, confidence) of every contact."""
+    done = subprocess.run([program, "detect", str(sound), *options], capture_output=True, text=True)
+    contacts = []
+    for line in done.stdout.splitlines()[1:]:
+        start, end, _, _, confidence = line.split()[:5]
+        contacts.append((float(start), float(start if end == "-" else end), float(confidence)))
+    return contacts
+
+
+def aubio(sound, method, threshold):
+    """With the finest step that suits contacts 10 ms apart."""
+    done = subprocess.run(["aubioonset", "-i", str(sound), "-O", method, "-t", str(threshold), "-r", "0",
+                           "-B", "512", "-H", "64", "-M", "0.010", "-s", "-70"],
+                          capture_output=True, text=True)
+    return [(float(time), float(time)) for time in done.stdout.split()]
 
 
 class Score:
     def __init__(self):
-        self.labelled = self.detected = self.files = 0
-        self.errors = {0.010: [], 0.005: []}
+        self.labelled = self.detected = self.neutral = self.files = 0
+        self.found = {0.010: 0, 0.005: 0}
+        self.errors, self.ends = [], []
+        self.terminal = self.overlapping = 0
 
-    def add(self, labelled, detected):
+    def add(self, case, contacts):
+        detected, _ = merged([contact[:2] for contact in contacts])
         self.files += 1
-        self.labelled += len(labelled)
-        self.detected += len(detected)
-        for tolerance, errors in self.errors.items():
-            errors += match(labelled, detected, tolerance)
+        self.labelled += case.hidden.count(False)
+        for tolerance in self.found:
+            pairs = match(case.events, detected, tolerance)
+            self.found[tolerance] += sum(not case.hidden[i] for i in pairs)
+            if tolerance != MERGE_GAP:
+                continue
+            self.errors += [detected[j][0] - case.events[i][0] for i, j in pairs.items()]
+            kept = self.without_neutral(case, detected, pairs)
+            self.detected += len(kept)
+            self.neutral += len(detected) - len(kept)
+            self.add_terminal(case, kept)
+
+    @staticmethod
+    def without_neutral(case, detected, pairs):
+        of = {j: i for i, j in pairs.items()}
+        return [event for j, event in enumerate(detected)
+                if not (case.hidden[of[j]] if j in of else
+                        any(s - MERGE_GAP <= event[0] <= e + MERGE_GAP for s, e in case.blows))]
+
+    def add_terminal(self, case, detected):
+        heard = [event for event, hidden in zip(case.events, case.hidden) if not hidden]
+        if not heard or not detected:
+            return
+        (start, end), (found_start, found_end) = heard[-1], detected[-1]
+        exact = abs(start - found_start) <= MERGE_GAP
+        both = end > start and found_end > found_start and found_start < end and start < found_end
+        self.terminal += exact
+        self.overlapping += exact or both
+        if exact or both:
+            self.ends.append(abs(end - found_end))
+
+    def f(self, tolerance):
+        return 2 * self.found[tolerance] / max(1, self.labelled + self.detected)
 
     def row(self, name):
-        f = {t: 2 * len(e) / (self.labelled + self.detected) for t, e in self.errors.items()}
-        found = self.errors[0.010]
-        median = statistics.median(map(abs, found)) * 1000 if found else float("nan")
-        return (f"| {name} | {self.files} | {self.labelled} | {f[0.010]:.3f} | {f[0.005]:.3f} "
-                f"| {self.labelled - len(found)} | {self.detected - len(found)} | {median:.2f} |")
+        found = self.found[0.010]
+        median = statistics.median(map(abs, self.errors)) * 1000 if self.errors else float("nan")
+        within = sum(error <= END_TOLERANCE for error in self.ends)
+        return (f"| {name} | {self.files} | {self.labelled} | {self.f(0.010):.3f} | {self.f(0.005):.3f} "
+                f"| {self.labelled - found} | {self.detected - found} | {self.neutral} | {median:.2f} "
+                f"| {self.terminal} | {self.overlapping} | {within} |")
+
+
+HEADER = ("| sounds | files | events | F, 10 ms | F, 5 ms | missed | invented | neither | median error, ms "
+          "| last found | or overlapping | its end within 40 ms |\n" + "|---" * 12 + "|")
+
+
+def scored(cases, contacts):
+    score = Score()
+    for case, found in zip(cases, contacts):
+        score.add(case, found)
+    return score
+
+
+def in_parallel(function, cases):
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        return list(pool.map(function, cases))
+
+
+def print_kinds(cases, contacts, verbose):
+    print(HEADER)
+    for kind in sorted({case.kind for case in cases}):
+        chosen = [i for i, case in enumerate(cases) if case.kind == kind]
+        print(scored([cases[i] for i in chosen], [contacts[i] for i in chosen]).row(kind))
+        for i in chosen if verbose else []:
+            print(scored([cases[i]], [contacts[i]]).row(cases[i].path.stem))
+    print(scored(cases, contacts).row("all"))
+
+
+def print_aubio(cases, methods):
+    """Every method at the threshold that suits it best on these very sounds."""
+    for method in methods:
+        scores = [(scored(cases, in_parallel(lambda c, t=threshold: aubio(c.path, method, t), cases)),
+                   threshold) for threshold in THRESHOLDS]
+        best, threshold = max(scores, key=lambda pair: pair[0].f(0.010))
+        print(best.row(f"aubio {method}, -t {threshold}"))
+
+
+def print_cross(program, cases):
+    """The smallest rise chosen on the even cases of the list and reported on the odd ones, and back."""
+    halves = [cases[0::2], cases[1::2]]
+    scores = [[scored(half, in_parallel(lambda c, r=rise: detect(program, c.path, ["--min-rise", str(r)]),
+                                        half)) for rise in RISES] for half in halves]
+    print("\nF at 10 ms over --min-rise: "
+          + ", ".join(f"{r}: {a.f(0.010):.3f} {b.f(0.010):.3f}" for r, a, b in zip(RISES, *scores)))
+    print(HEADER)
+    for chosen, name in ((0, "even"), (1, "odd")):
+        best = max(range(len(RISES)), key=lambda i: scores[chosen][i].f(0.010))
+        print(scores[chosen][best].row(f"{name} half, chosen here: {RISES[best]} dB"))
+        print(scores[1 - chosen][best].row("the other half with it"))
+
+
+def print_confidence(program, cases):
+    """What share was true of all that was found with a confidence, softer rises included."""
+    bins = [(0, 0.3), (0.3, 0.6), (0.6, 0.8), (0.8, 0.95), (0.95, 1.01)]
+    print("\n| confidence | half | contacts | said | true |\n|---|---|---|---|---|")
+    for half in (0, 1):
+        pairs = []
+        chosen = cases[half::2]
+        found = in_parallel(lambda c: detect(program, c.path, ["--min-rise", "3"]), chosen)
+        for case, contacts in zip(chosen, found):
+            true = case.events + case.blows
+            pairs += [(confidence, any(s - MERGE_GAP <= start <= e + MERGE_GAP for s, e in true))
+                      for start, _, confidence in contacts]
+        for low, high in bins:
+            inside = [pair for pair in pairs if low <= pair[0] < high]
+            if inside:
+                print(f"| {low} to {min(high, 1)} | {('even', 'odd')[half]} | {len(inside)} "
+                      f"| {statistics.mean(p[0] for p in inside):.2f} "
+                      f"| {statistics.mean(p[1] for p in inside):.2f} |")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
-    parser.add_argument("recordings", type=pathlib.Path)
-    parser.add_argument("-v", "--verbose", action="store_true", help="a row for every recording")
+    parser.add_argument("sounds", type=pathlib.Path)
+    parser.add_argument("-v", "--verbose", action="store_true", help="a row for every sound")
+    parser.add_argument("--aubio", nargs="*", choices=METHODS, help="the same of aubioonset (all methods)")
+    parser.add_argument("--cross", action="store_true", help="choose on one half, report on the other")
+    parser.add_argument("--confidence", action="store_true", help="how often a confidence is right")
     parser.add_argument("options", nargs="*", help="for ifa detect, after --")
     arguments = parser.parse_args()
-    rows = {}
-    with tempfile.TemporaryDirectory() as folder:
-        for sound in sorted(arguments.recordings.rglob("*.wav")):
-            labels = sound.with_suffix(".txt")
-            if not labels.exists():
-                continue
-            starts = [s for s, _ in merged(read_labels(labels))]
-            found = [s for s, _ in merged(detect(arguments.program, sound, arguments.options, folder))]
-            kind = sound.relative_to(arguments.recordings).parts[0]
-            names = [kind]
-            if kind == "single":
-                names.append("single, checked" if sound.stem.endswith("_d") else "single, tuned on")
-            if arguments.verbose:
-                names.append(f"{kind}/{sound.stem}")
-            for name in names:
-                rows.setdefault(name, Score()).add(starts, found)
-    if not rows:
-        sys.exit(f"no NAME.wav with a NAME.txt under {arguments.recordings}")
-    print("| recordings | files | events | F, 10 ms | F, 5 ms | missed | invented | median error, ms |")
-    print("|---|---|---|---|---|---|---|---|")
-    for name, score in sorted(rows.items()):
-        print(score.row(name))
+    cases = [Case(sound, arguments.sounds) for sound in sorted(arguments.sounds.rglob("*.wav"))
+             if sound.with_suffix(".txt").exists()]
+    if not cases:
+        sys.exit(f"no NAME.wav with a NAME.txt under {arguments.sounds}")
+    contacts = in_parallel(lambda c: detect(arguments.program, c.path, arguments.options), cases)
+    print_kinds(cases, contacts, arguments.verbose)
+    if arguments.aubio is not None:
+        print_aubio(cases, arguments.aubio or METHODS)
+    if arguments.cross:
+        print_cross(arguments.program, cases)
+    if arguments.confidence:
+        print_confidence(arguments.program, cases)
 
 
 if __name__ == "__main__":

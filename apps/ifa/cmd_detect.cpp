@@ -26,13 +26,14 @@ struct DetectOptions {
 
 void showTable(Console& console, const std::vector<DetectedContact>& contacts,
                const std::vector<Label>& labels) {
-  console.result("   start s       end s  level dB  rise dB  label");
+  console.result("   start s       end s  level dB  rise dB  confidence  label");
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const DetectedContact& contact = contacts[i];
     const std::string end =
         contact.end > contact.start ? fmt::format("{:.6f}", contact.end) : std::string("-");
-    console.result(fmt::format("{:10.6f}  {:>10}  {:8.1f} {:8.1f}  {}", contact.start, end,
-                               contact.level, contact.rise, labels[i].text));
+    console.result(fmt::format("{:10.6f}  {:>10}  {:8.1f} {:8.1f}  {:10.2f}  {}", contact.start,
+                               end, contact.level, contact.rise, contact.confidence,
+                               labels[i].text));
   }
 }
 

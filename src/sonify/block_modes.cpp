@@ -128,8 +128,9 @@ BlockMode::BlockMode(const Block& block, double frequency, Eigen::VectorXd coeff
     for (int k = 0; k < 2 * kGrid * kGrid; ++k) {
       Eigen::Vector3d unit;
       unit(axis) = k % 2 == 0 ? 1 : -1;
-      unit(u) = (2 * (k / 2 % kGrid) + 1.0) / kGrid - 1;
-      unit(v) = (2 * (k / 2 / kGrid) + 1.0) / kGrid - 1;
+      const int column = k / 2 % kGrid, row = k / 2 / kGrid;
+      unit(u) = (2 * column + 1.0) / kGrid - 1;
+      unit(v) = (2 * row + 1.0) / kGrid - 1;
       const double across = shape(unit)(axis);
       sum += patch * across * across;
       area += patch;

@@ -10,8 +10,8 @@ namespace ifa {
 
 /// Adds reverberation that falls by 60 dB in `seconds`: exponentially decaying noise (Moorer 1979)
 /// of sparse pulses (velvet noise; Karjalainen and Jarvelainen 2007), which begins 2 ms after the
-/// direct sound and carries a quarter of its energy, as within half the critical distance. The
-/// sound grows by `seconds`. One channel.
+/// direct sound and carries a quarter of its energy, as at half the critical distance, before a low
+/// pass at 5 kHz for what air and walls take. The sound grows by `seconds`. One channel.
 void addReverberation(Sound& sound, double seconds, std::uint64_t seed);
 
 /// Adds white noise, `ratio` dB under the mean energy of the sound between its first and last

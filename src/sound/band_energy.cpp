@@ -9,7 +9,7 @@
 namespace ifa {
 namespace {
 
-constexpr std::array<double, 5> kEdgesHz{400, 1500, 4000, 9000, 20000};
+constexpr std::array<double, 6> kEdgesHz{150, 400, 1500, 4000, 9000, 20000};
 constexpr double kHopSeconds = 0.00025;
 
 /// Second-order section, transposed direct form II.

@@ -34,8 +34,9 @@ struct BandEnergies {
   [[nodiscard]] std::ptrdiff_t hopsIn(double seconds) const;
 };
 
-/// Four bands from 400 Hz to 20 kHz, each about eight auditory filters wide (Glasberg and Moore
-/// 1990): what lies lower is handling noise and hum, and too slow to be timed.
+/// Five bands from 150 Hz to 20 kHz. The upper four are each about eight auditory filters wide
+/// (Glasberg and Moore 1990); the lowest hears dull thumps. What lies lower is hum, and too slow to
+/// be timed.
 [[nodiscard]] BandEnergies bandEnergies(const Sound& sound);
 
 }  // namespace ifa

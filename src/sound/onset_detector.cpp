@@ -82,6 +82,10 @@ std::vector<std::size_t> peaks(const Novelty& novelty, double minRise, double mi
   return found;
 }
 
+/// Logistic regression of what was true among rises from 3 dB on in recordings (docs/detection.md):
+/// even odds at 4.5 dB, e times better with every decibel.
+double confidenceOf(double rise) { return 1 / (1 + std::exp(4.5 - rise)); }
+
 /// One contact a peak; its level is the highest in the next 20 ms, as a signature's amplitude is.
 std::vector<DetectedContact> contactsAt(const std::vector<std::size_t>& attacks,
                                         const Novelty& novelty, double loudest, double hop) {
@@ -95,7 +99,8 @@ std::vector<DetectedContact> contactsAt(const std::vector<std::size_t>& attacks,
         *std::max_element(begin + static_cast<std::ptrdiff_t>(k),
                           begin + static_cast<std::ptrdiff_t>(std::min(next, k + reach)));
     const double start = static_cast<double>(k) * hop;
-    contacts.push_back({start, start, decibels(highest / loudest), novelty.rise[k]});
+    contacts.push_back({start, start, decibels(highest / loudest), novelty.rise[k],
+                        confidenceOf(novelty.rise[k])});
   }
   return contacts;
 }
@@ -110,14 +115,31 @@ void dropLeadIn(std::vector<DetectedContact>& contacts, double leadIn) {
 }
 
 /// End of the rattle that follows the last contact: as long as small rises come without a pause.
-double rattleEnd(const std::vector<std::size_t>& smallRises, double start, double hop,
+double rattleEnd(const std::vector<double>& smallRises, double start,
                  const DetectorSettings& settings) {
   double end = start;
-  for (const std::size_t k : smallRises) {
-    const double time = static_cast<double>(k) * hop;
+  for (const double time : smallRises) {
     if (time > end && time - end <= settings.rattleGap) end = time;
   }
   return end - start >= settings.minDuration ? end : start;
+}
+
+/// Makes the last contacts one with what goes on between them: from the end back, each that does
+/// not stand out clearly and has so many small rises before it that they are no contacts of their
+/// own.
+void joinRattle(std::vector<DetectedContact>& contacts, const std::vector<double>& smallRises,
+                const DetectorSettings& settings) {
+  while (contacts.size() > 1 && contacts.back().rise < settings.clearRise) {
+    const DetectedContact last = contacts.back();
+    DetectedContact& previous = contacts[contacts.size() - 2];
+    const auto between = std::count_if(smallRises.begin(), smallRises.end(), [&](double time) {
+      return time > previous.start && time < last.start;
+    });
+    const double meanGap = (last.start - previous.start) / static_cast<double>(between + 1);
+    if (meanGap > settings.rattleMeanGap) return;
+    previous.end = last.end;
+    contacts.pop_back();
+  }
 }
 
 }  // namespace
@@ -137,9 +159,14 @@ Result<std::vector<DetectedContact>> detectContacts(const Sound& sound,
                              energies.hop);
   if (contacts.empty()) return nothing;
   dropLeadIn(contacts, settings.leadIn);
+  std::vector<double> smallRises;
+  for (const std::size_t k :
+       peaks(novelty, settings.rattleRise, minLevel / 10, (interval + 1) / 2)) {
+    smallRises.push_back(static_cast<double>(k) * energies.hop);
+  }
   DetectedContact& last = contacts.back();
-  const auto small = peaks(novelty, settings.rattleRise, minLevel / 10, (interval + 1) / 2);
-  last.end = std::min(rattleEnd(small, last.start, energies.hop, settings), sound.duration());
+  last.end = std::min(rattleEnd(smallRises, last.start, settings), sound.duration());
+  joinRattle(contacts, smallRises, settings);
   return contacts;
 }
 

@@ -15,25 +15,28 @@ struct DetectedContact {
   double end = 0;    ///< s; equal to `start` for a discrete contact, later for a rattle or a roll
   double level = 0;  ///< dB relative to the loudest contact, <= 0
   double rise = 0;   ///< dB by which the attack stands over what was there before, mean over bands
+  double confidence = 1;  ///< 0 to 1: the share of contacts with such a rise that are true ones
 };
 
 /// All that can be tuned; docs/detection.md tells how the defaults were found.
 struct DetectorSettings {
-  double minRise = 6.5;        ///< dB; a smaller rise is no attack. Higher: fewer, surer contacts
+  double minRise = 5.25;       ///< dB; a smaller rise is no attack. Higher: fewer, surer contacts
   double range = 40;           ///< dB under the loudest contact where listening stops
   double after = 0.002;        ///< s after a moment in which the attack's energy is taken
   double before = 0.008;       ///< s before it that it is compared with; longer hides more echoes
   double minInterval = 0.004;  ///< s; of two attacks that are closer the steeper one counts
   double leadIn = 30;          ///< dB under the loudest contact; the first one is not softer
-  double rattleRise = 2.5;     ///< dB; rises that, after the last contact, keep a rattle going
-  double rattleGap = 0.020;    ///< s; a longer pause between them ends it
-  double minDuration = 0.020;  ///< s; a shorter rattle is none: the last contact is discrete
+  double rattleRise = 3;       ///< dB; rises that, after the last contact, keep a rattle going
+  double rattleGap = 0.030;    ///< s; a longer pause between them ends it
+  double rattleMeanGap = 0.0125;  ///< s; contacts at the end with more rises between are one rattle
+  double clearRise = 10;          ///< dB; a contact that rises so much begins one and joins none
+  double minDuration = 0.020;     ///< s; a shorter rattle is none: the last contact is discrete
 };
 
-/// Contacts in order of time; only the last one may be a region (a rattle or roll at the end): the
-/// merge filter of a signature joins what is dense elsewhere. Times are multiples of 0.25 ms, give
-/// or take half a sample.
-/// Errors: kBadInput when nothing in the sound is an attack.
+/// Contacts in order of time; only the last one may be a region (a rattle or roll at the end, which
+/// swallows the contacts in it): the merge filter of a signature joins what is dense elsewhere.
+/// Times are multiples of 0.25 ms, give or take half a sample. Errors: kBadInput when nothing in
+/// the sound is an attack.
 [[nodiscard]] Result<std::vector<DetectedContact>> detectContacts(
     const Sound& sound, const DetectorSettings& settings = {});
 

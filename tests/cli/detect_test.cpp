@@ -50,6 +50,8 @@ TEST_F(Detect, ShowsATableWithoutAnOutput) {
   EXPECT_EQ(result.exit, 0);
   EXPECT_THAT(result.err, IsEmpty());
   EXPECT_THAT(linesOf(result.out), SizeIs(1 + kClicks.size()));
+  EXPECT_THAT(linesOf(result.out).front(), HasSubstr("confidence"));
+  EXPECT_THAT(linesOf(result.out)[1], HasSubstr(" 1.00 "));  // a click in silence
   EXPECT_EQ(folder_.names(), before);
 }
 

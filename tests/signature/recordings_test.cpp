@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <vector>
@@ -62,7 +63,7 @@ class Recordings : public testing::Test {
 TEST_F(Recordings, SingleDice) {
   const auto score = scoreOf("single", 0.010);
   EXPECT_GT(score.found, 150U);
-  // Required: 0.80. Reached: 0.974; a change that loses two hundredths should be looked at.
+  // Required: 0.80. Reached: 0.970; a change that loses two hundredths should be looked at.
   EXPECT_GE(score.fMeasure(), 0.95);
   EXPECT_LT(score.medianError(), 0.0005);
   EXPECT_GE(scoreOf("single", 0.005).fMeasure(), 0.94);
@@ -71,6 +72,25 @@ TEST_F(Recordings, SingleDice) {
 TEST_F(Recordings, DoubtfulAndOtherThings) {
   EXPECT_GE(scoreOf("doubtful", 0.010).fMeasure(), 0.90);
   EXPECT_GE(scoreOf("other", 0.010).fMeasure(), 0.90);
+}
+
+TEST_F(Recordings, TheLastContactIsFoundWithItsEnd) {
+  int found = 0, ends = 0;
+  for (const auto& path : soundsIn(root_)) {
+    const auto sound = readSound(path);
+    const auto labels = readLabels(std::filesystem::path(path).replace_extension(".txt"));
+    ASSERT_TRUE(sound && labels) << path;
+    const auto contacts = detectContacts(*sound);
+    ASSERT_TRUE(contacts) << path;
+    const Label last = mergeLabels(*labels, kMergeGap).back();
+    const Label heard = mergeLabels(labelsFromContacts(*contacts), kMergeGap).back();
+    if (std::abs(heard.start - last.start) > kMergeGap) continue;
+    ++found;
+    ends += std::abs(heard.end - last.end) <= 0.040 ? 1 : 0;
+  }
+  // Of 30; reached: 25 and 24 (docs/detection.md tells of the others).
+  EXPECT_GE(found, 25);
+  EXPECT_GE(ends, 24);
 }
 
 TEST_F(Recordings, LabelsGiveSignatures) {

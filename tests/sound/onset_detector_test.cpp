@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "sound/detection_score.h"
 #include "sound/synthetic_sound.h"
@@ -113,6 +115,65 @@ TEST(DetectContacts, TheLastContactMayBeARattle) {
   for (std::size_t i = 0; i + 1 < contacts->size(); ++i) {
     EXPECT_EQ((*contacts)[i].end, (*contacts)[i].start);
   }
+}
+
+TEST(DetectContacts, ARattleSwallowsWhatIsInIt) {
+  // Hits 9 ms apart, many of which would be contacts by themselves.
+  std::vector<Burst> bursts{{0.1, 0.8}, {0.3, 0.5}};
+  for (int i = 0; i < 16; ++i) bursts.push_back({0.45 + 0.009 * i, i == 0 ? 0.1 : 0.07, 0.003});
+  const auto contacts = detectContacts(test::burstsInNoise(bursts, 1, 44100, 1e-4));
+  ASSERT_TRUE(contacts);
+  ASSERT_EQ(contacts->size(), 3U);
+  EXPECT_NEAR(contacts->back().start, 0.45, 0.001);
+  EXPECT_NEAR(contacts->back().end, 0.45 + 0.009 * 15, 0.03);
+}
+
+TEST(DetectContacts, TellsContactsFifteenMillisecondsApart) {
+  const std::vector<Burst> bursts{{0.1, 0.8}, {0.115, 0.5}, {0.13, 0.6}, {0.145, 0.3}, {0.3, 0.4}};
+  const auto contacts = detectContacts(test::burstsInNoise(bursts, 0.6, 44100, 1e-4));
+  ASSERT_TRUE(contacts);
+  const auto score = test::scoreDetection(timesOf(bursts), startsOf(*contacts), 0.001);
+  EXPECT_EQ(score.missed + score.invented, 0U);
+  EXPECT_EQ(contacts->back().end, contacts->back().start);
+}
+
+TEST(DetectContacts, ClippingMovesNothing) {
+  auto sound = test::burstsInNoise(bounces(), 1.5, 44100, 1e-4);
+  for (float& sample : sound.samples) sample = std::clamp(4 * sample, -1.0F, 1.0F);
+  const auto contacts = detectContacts(sound);
+  ASSERT_TRUE(contacts);
+  const auto score = test::scoreDetection(timesOf(bounces()), startsOf(*contacts), 0.002);
+  EXPECT_EQ(score.missed + score.invented, 0U);
+}
+
+TEST(DetectContacts, HearsSoftContactsInTheRingOfALoudOne) {
+  std::vector<Burst> bursts{{0.1, 0.5, 0.003}, {0.25, 0.08, 0.003}, {0.4, 0.08, 0.003}};
+  auto sound = test::burstsInNoise(bursts, 0.7, 44100, 1e-4);
+  for (std::size_t i = 4410; i < sound.samples.size(); ++i) {
+    const double age = static_cast<double>(i - 4410) / 44100;
+    sound.samples[i] +=
+        static_cast<float>(0.05 * std::exp(-age / 0.5) * std::sin(6.2832 * 2700 * age));
+  }
+  const auto contacts = detectContacts(sound);
+  ASSERT_TRUE(contacts);
+  const auto score = test::scoreDetection(timesOf(bursts), startsOf(*contacts), 0.002);
+  EXPECT_EQ(score.missed + score.invented, 0U);
+}
+
+TEST(DetectContacts, IsSurerOfWhatRisesMore) {
+  DetectorSettings settings;
+  settings.minRise = 3;
+  const auto contacts = detectContacts(test::burstsInNoise(bounces(), 1.5, 44100, 0.01), settings);
+  ASSERT_TRUE(contacts);
+  for (const DetectedContact& a : *contacts) {
+    EXPECT_GT(a.confidence, 0);
+    EXPECT_LE(a.confidence, 1);
+    EXPECT_EQ(a.confidence > 0.5, a.rise > 4.5);
+    for (const DetectedContact& b : *contacts) {
+      EXPECT_TRUE(a.rise <= b.rise || a.confidence >= b.confidence);
+    }
+  }
+  EXPECT_GT(contacts->front().confidence, 0.999);
 }
 
 TEST(DetectContacts, NothingIsFoundWhereNothingHappens) {
