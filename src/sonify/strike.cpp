@@ -21,13 +21,15 @@ Eigen::Vector3d lowestPoint(const Body& body, const Eigen::Vector3d& up) {
 }
 
 /// Adds the blow of `impulse` (world frame) unless it carries the weight and no more.
-void addStrike(std::vector<Strike>& strikes, const Body& body, const Strike& when,
+void addStrike(std::vector<Strike>& strikes, const Body& body, double time, double duration,
                const Eigen::Vector3d& impulse, const Eigen::Matrix3d& bodyFromWorld) {
   const double length = impulse.norm();
-  const double carried = 2 * body.mass * kGravity * std::max(kBin, when.duration);
-  const double sounding = when.duration > 0 ? length - carried : length;
+  const double carried = 2 * body.mass * kGravity * std::max(kBin, duration);
+  const double sounding = duration > 0 ? length - carried : length;
   if (sounding <= body.mass * kSlowest) return;
-  Strike strike = when;
+  Strike strike;
+  strike.time = time;
+  strike.duration = duration;
   strike.impulse = sounding;
   strike.direction = bodyFromWorld * (impulse / length);
   strike.point = lowestPoint(body, bodyFromWorld.col(2));
@@ -46,7 +48,7 @@ std::vector<Strike> strikesOf(const Motion& motion, const Body& body) {
     if (duration > kLongestStep) continue;
     const Eigen::Vector3d fall(0, 0, -kGravity * duration);
     const Eigen::Vector3d impulse = body.mass * (to.velocity - from.velocity - fall);
-    addStrike(strikes, body, {from.time, duration, 0, {}, {}}, impulse,
+    addStrike(strikes, body, from.time, duration, impulse,
               from.orientation.toRotationMatrix().transpose());
   }
   return strikes;
@@ -57,8 +59,7 @@ std::vector<Strike> strikesOf(const std::vector<ContactStep>& steps, const Body&
   for (const ContactStep& step : steps) {
     const Eigen::Matrix3d worldFromBody =
         step.before.orientation.toRotationMatrix() * body.bodyFromPrincipal.transpose();
-    addStrike(strikes, body, {step.time, step.duration, 0, {}, {}}, step.impulse,
-              worldFromBody.transpose());
+    addStrike(strikes, body, step.time, step.duration, step.impulse, worldFromBody.transpose());
   }
   return strikes;
 }
