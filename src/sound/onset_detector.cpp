@@ -87,17 +87,21 @@ std::vector<std::size_t> peaks(const Novelty& novelty, double minRise, double mi
 double confidenceOf(double rise) { return 1 / (1 + std::exp(4.5 - rise)); }
 
 /// One contact a peak; its level is the highest in the next 20 ms, as a signature's amplitude is.
+/// Levels look `after` hops ahead, so they are read no nearer to the next attack than that.
 std::vector<DetectedContact> contactsAt(const std::vector<std::size_t>& attacks,
-                                        const Novelty& novelty, double loudest, double hop) {
+                                        const Novelty& novelty, double loudest, double hop,
+                                        std::size_t after) {
   const auto reach = static_cast<std::size_t>(std::lround(0.020 / hop));
   std::vector<DetectedContact> contacts;
   for (std::size_t i = 0; i < attacks.size(); ++i) {
     const std::size_t k = attacks[i];
-    const std::size_t next = i + 1 < attacks.size() ? attacks[i + 1] : novelty.level.size();
+    const std::size_t next = i + 1 < attacks.size()
+                                 ? attacks[i + 1] - std::min(after, attacks[i + 1])
+                                 : novelty.level.size();
+    const std::size_t end = std::max(k + 1, std::min(next, k + reach));
     const auto begin = novelty.level.begin();
-    const double highest =
-        *std::max_element(begin + static_cast<std::ptrdiff_t>(k),
-                          begin + static_cast<std::ptrdiff_t>(std::min(next, k + reach)));
+    const double highest = *std::max_element(begin + static_cast<std::ptrdiff_t>(k),
+                                             begin + static_cast<std::ptrdiff_t>(end));
     const double start = static_cast<double>(k) * hop;
     contacts.push_back({start, start, decibels(highest / loudest), novelty.rise[k],
                         confidenceOf(novelty.rise[k])});
@@ -155,8 +159,9 @@ Result<std::vector<DetectedContact>> detectContacts(const Sound& sound,
   if (!(loudest > 0)) return nothing;
   const double minLevel = loudest * ratioOf(-settings.range);
   const auto interval = energies.hopsIn(settings.minInterval);
-  auto contacts = contactsAt(peaks(novelty, settings.minRise, minLevel, interval), novelty, loudest,
-                             energies.hop);
+  auto contacts =
+      contactsAt(peaks(novelty, settings.minRise, minLevel, interval), novelty, loudest,
+                 energies.hop, static_cast<std::size_t>(energies.hopsIn(settings.after)));
   if (contacts.empty()) return nothing;
   dropLeadIn(contacts, settings.leadIn);
   std::vector<double> smallRises;
