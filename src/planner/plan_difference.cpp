@@ -16,20 +16,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Points = std::vector<Vector2d>;
 
-constexpr double kShare = 0.1;                   ///< of the path's length
 constexpr double kCosine = 0.93969262078590838;  ///< of 20 degrees
-
-Points pathOf(const Plan& plan) {
-  Points points;
-  for (const PlannedContact& contact : plan.contacts) {
-    points.push_back(contact.placement.apply(contact.event.before).position.head<2>());
-  }
-  if (!plan.contacts.empty()) {
-    const PlannedContact& last = plan.contacts.back();
-    points.push_back(last.placement.apply(last.event.after).position.head<2>());
-  }
-  return points;
-}
 
 double lengthOf(const Points& points) {
   double length = 0;
@@ -106,12 +93,9 @@ struct Pair {
   [[nodiscard]] bool near(const Turn& turn) const { return farthestApart(a, b, turn) <= most; }
 };
 
-Pair pairOf(const Plan& a, const Plan& b) {
-  Pair pair{pathOf(a), pathOf(b), 0};
-  pair.most = kShare * std::max(lengthOf(pair.a), lengthOf(pair.b));
-  pair.a = centred(std::move(pair.a));
-  pair.b = centred(std::move(pair.b));
-  return pair;
+Pair pairOf(Points a, Points b) {
+  const double length = std::max(lengthOf(a), lengthOf(b));
+  return {centred(std::move(a)), centred(std::move(b)), kDifferentShare * length};
 }
 
 /// Whether the second motion, its final pose given as one of those that look alike, is the first.
@@ -124,21 +108,35 @@ bool sameTake(const Pair& paths, const Turn& byPaths, bool nearByPaths, const Ma
 
 }  // namespace
 
-bool differentPaths(const Plan& a, const Plan& b) {
-  if (a.contacts.size() != b.contacts.size()) return true;
-  if (a.contacts.empty()) return false;
-  Pair pair = pairOf(a, b);
+std::vector<Vector2d> pathOf(const Plan& plan) {
+  std::vector<Vector2d> points;
+  for (const PlannedContact& contact : plan.contacts) {
+    points.push_back(contact.placement.apply(contact.event.before).position.head<2>());
+  }
+  if (!plan.contacts.empty()) {
+    const PlannedContact& last = plan.contacts.back();
+    points.push_back(last.placement.apply(last.event.after).position.head<2>());
+  }
+  return points;
+}
+
+bool differentPaths(std::vector<Vector2d> a, std::vector<Vector2d> b) {
+  if (a.size() != b.size()) return true;
+  if (a.empty()) return false;
+  Pair pair = pairOf(std::move(a), std::move(b));
   if (pair.near(turnOnto(pair.a, pair.b))) return false;
   pair.b = mirrored(std::move(pair.b));
   return !pair.near(turnOnto(pair.a, pair.b));
 }
+
+bool differentPaths(const Plan& a, const Plan& b) { return differentPaths(pathOf(a), pathOf(b)); }
 
 bool differentTakes(const Plan& a, const Plan& b, std::span<const Matrix3d> group) {
   if (a.contacts.size() != b.contacts.size()) return true;
   if (a.contacts.empty()) return false;
   static const std::array<Matrix3d, 1> kNone = {Matrix3d::Identity()};
   if (group.empty()) group = kNone;
-  const Pair straight = pairOf(a, b);
+  const Pair straight = pairOf(pathOf(a), pathOf(b));
   const Pair mirror = {straight.a, mirrored(straight.b), straight.most};
   const Turn turn = turnOnto(straight.a, straight.b), mirrorTurn = turnOnto(mirror.a, mirror.b);
   const bool near = straight.near(turn), nearMirrored = mirror.near(mirrorTurn);

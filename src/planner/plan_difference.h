@@ -4,10 +4,17 @@
 
 #include <Eigen/Core>
 #include <span>
+#include <vector>
 
 #include "planner/planner.h"
 
 namespace ifa {
+
+/// Contacts that lie farther apart make a difference, as a share of the path's length.
+inline constexpr double kDifferentShare = 0.1;
+
+/// Where the contacts begin, and where the last one ends: world, from above, m.
+[[nodiscard]] std::vector<Eigen::Vector2d> pathOf(const Plan& plan);
 
 /// Whether two plans are different takes (docs/method.md 6): after the best planar registration,
 /// and whatever element of the group is applied, their final poses differ by over 20 degrees, or
@@ -21,5 +28,6 @@ namespace ifa {
 
 /// The part of it that looks at paths alone, mirrored or not.
 [[nodiscard]] bool differentPaths(const Plan& a, const Plan& b);
+[[nodiscard]] bool differentPaths(std::vector<Eigen::Vector2d> a, std::vector<Eigen::Vector2d> b);
 
 }  // namespace ifa

@@ -7,87 +7,20 @@
 
 #include "base/stopwatch.h"
 #include "planner/check_request.h"
-#include "planner/plan_difference.h"
 #include "planner/shooting_plan.h"
 #include "planner/shooting_search.h"
+#include "planner/shooting_takes.h"
+#include "planner/take_lineages.h"
 
 namespace ifa {
 
 namespace {
 
-/// A plan below this Score is not called solved (docs/method.md 5).
-constexpr double kLeastScore = 0.5;
-
-bool acceptable(const ShootingProblem& problem, const ShootingNode& node) {
-  return node.log.score(static_cast<int>(problem.targets.size())) >= kLeastScore;
-}
-
-/// Gathers takes over the passes.
-class Takes {
- public:
-  explicit Takes(const ShootingProblem& problem) : problem_(problem) {}
-
-  void add(const ShootingSearch& search) {
-    const auto wanted = static_cast<std::size_t>(problem_.request.settings.takes);
-    std::vector<Plan> found = std::move(plans_);
-    for (const ShootingNode& node : search.complete()) {
-      if (!acceptable(problem_, node)) break;
-      found.push_back(planOf(problem_, search.path(node)));
-    }
-    std::stable_sort(found.begin(), found.end(),
-                     [](const Plan& a, const Plan& b) { return a.worth > b.worth; });
-    plans_.clear();
-    for (Plan& plan : found) {
-      const bool isNew = std::all_of(plans_.begin(), plans_.end(), [&](const Plan& other) {
-        return differentTakes(plan, other, problem_.request.symmetry);
-      });
-      if (!isNew || plans_.size() >= wanted) continue;
-      if (isAccepted(plan)) plans_.push_back(std::move(plan));
-    }
-  }
-  [[nodiscard]] bool enough() const {
-    return plans_.size() >= static_cast<std::size_t>(problem_.request.settings.takes);
-  }
-  [[nodiscard]] std::vector<Plan>& plans() { return plans_; }
-  [[nodiscard]] bool refused() const { return refused_ > 0; }
-
- private:
-  /// Those of earlier passes have been.
-  bool isAccepted(Plan& plan) {
-    constexpr int kMostRefused = 20;
-    if (plan.solved) return true;
-    if (refused_ == kMostRefused) return false;
-    plan.solved = true;
-    plan.bendCap = problem_.request.settings.bendCap;
-    if (problem_.request.accepted(plan)) return true;
-    ++refused_;
-    return false;
-  }
-
-  const ShootingProblem& problem_;
-  std::vector<Plan> plans_;
-  int refused_ = 0;
-};
-
-/// How much work is left for more takes than one: all of them cost at most twice what one does.
-/// Work is counted in widths of passes.
-class TakesBudget {
- public:
-  [[nodiscard]] double width(double planned) const {
-    return price_ > 0 ? std::min(planned, left()) : planned;
-  }
-  [[nodiscard]] bool spent() const { return price_ > 0 && left() < kNarrowest; }
-  /// One pass more. @param one  whether a single take would be settled by now
-  void count(double width, bool one) {
-    work_ += width;
-    if (one && price_ == 0) price_ = work_;
-  }
-
- private:
-  static constexpr double kNarrowest = 0.25;
-  [[nodiscard]] double left() const { return 2 * price_ - work_; }
-  double work_ = 0, price_ = 0;
-};
+/// Sounds of so few contacts are short: what makes another take of them begins at the first ones.
+constexpr std::size_t kShort = 8;
+/// What all takes together may cost in work, where one costs 1. It is not all of twice the price,
+/// since the same width does not always cost the same; and where little comes of it, less.
+constexpr double kPrice = 1.6, kPriceOfShort = 1.85;
 
 /// One call of plan().
 class ShootingRun {
@@ -99,6 +32,7 @@ class ShootingRun {
         progress_(progress),
         problem_(request, settings),
         takes_(problem_),
+        work_(isShort() ? kPriceOfShort : kPrice),
         hard_(problem_.targets.size(), false) {}
 
   Result<std::vector<Plan>> run() {
@@ -109,6 +43,7 @@ class ShootingRun {
     for (int pass = 0; pass < passes && !work_.spent() && !stop(); ++pass) {
       if (!goesOn(pass, passes, work_.width(std::min(settings_.widest, width + 0.5 * pass)))) break;
     }
+    if (!takes_.plans().empty() && !takes_.enough() && !stop()) takes_.move();
     if (progress_.stopRequested() && takes_.plans().empty()) {
       return tl::unexpected<Error>({ErrorCode::kInterrupted, "interrupted", {}, {}});
     }
@@ -122,6 +57,8 @@ class ShootingRun {
     return cut_ || progress_.stopRequested();
   }
 
+  [[nodiscard]] bool isShort() const { return problem_.targets.size() <= kShort; }
+
   /// Makes a pass; whether another one may help.
   bool goesOn(int pass, int passes, double wide) {
     ShootingSearch search(problem_, static_cast<std::uint64_t>(pass), wide, hard_);
@@ -132,7 +69,40 @@ class ShootingRun {
     if (!found && !learnsFrom(search) && pass > 0) return false;
     const bool one = found && (pass > 0 || isGood(takes_.plans()[0]));
     work_.count(wide, one);
+    if (one && !isShort()) resume(search, wide);
     return !(one && takes_.enough());
+  }
+
+  /// Goes on from where the pass had motions that would make other takes, as long as some do.
+  void resume(const ShootingSearch& search, double wide) {
+    for (std::size_t before = 0; !takes_.enough() && !stop();) {
+      before = takes_.plans().size();
+      const std::size_t missing = static_cast<std::size_t>(request_.settings.takes) - before;
+      TakeLineages lineages =
+          lineagesBeside(takes_.plans(), search, settings_.waysPerTake * missing);
+      const double share = shareAfter(lineages.level);
+      const double width = std::min(wide, work_.left() / share);
+      if (lineages.ways == 0 || width < kNarrowest * wide) return;
+      ShootingSearch more(search, kResumed + resumed_++, width, lineages.level,
+                          std::move(lineages.beam));
+      more.run([this] { return stop(); }, [](double) {});
+      takes_.add(more);
+      // What died on its way has cost less.
+      const ShootingNode* farthest = more.farthest();
+      const int reached = farthest != nullptr ? farthest->level + 1 : 0;
+      const auto after = std::min(static_cast<std::size_t>(reached), search.levels() - 1);
+      work_.count(width * (share - shareAfter(after)), true);
+      if (takes_.plans().size() == before) return;
+    }
+  }
+
+  /// How much of a pass's work comes after a level.
+  [[nodiscard]] double shareAfter(std::size_t level) const {
+    const auto after = [&](std::size_t k) {
+      const int contacts = static_cast<int>(problem_.targets.size() - 1 - k);
+      return contacts + (settings_.lastFactor - 1) * std::min(settings_.lastContacts, contacts);
+    };
+    return static_cast<double>(after(level)) / std::max(1, after(0));
   }
 
   [[nodiscard]] bool isGood(const Plan& plan) const {
@@ -180,6 +150,11 @@ class ShootingRun {
   ShootingProblem problem_;
   Takes takes_;
   TakesBudget work_;
+  /// Numbers of searches that go on from a pass, among those of passes.
+  static constexpr std::uint64_t kResumed = 1000;
+  /// Narrower than this share of the pass, they find little.
+  static constexpr double kNarrowest = 0.4;
+  std::uint64_t resumed_ = 0;
   std::vector<bool> hard_;  ///< ShootingSearch's
   std::vector<Plan> partial_;
 };

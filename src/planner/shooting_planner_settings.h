@@ -2,6 +2,8 @@
 // Tunables of the shooting planner (docs/planner.md).
 #pragma once
 
+#include <cstddef>
+
 namespace ifa {
 
 struct ShootingPlannerSettings {
@@ -44,6 +46,8 @@ struct ShootingPlannerSettings {
   /// fits is worth in rank.
   int hardContacts = 5, hardBeam = 6, hardAhead = 4;
   double hardWeight = 0.5;
+  /// Further takes are looked for among motions that go so many times as many ways as are missing.
+  std::size_t waysPerTake = 2;
   int outlookDrops = 1000;  ///< drops from which the energy outlook is learnt
   /// Transitions to events of a database; none with "shoot" (docs/hybrid.md).
   int aimedEvents = 0;        ///< candidates for each contact, by rhythm

@@ -127,11 +127,19 @@ ShootingSearch::ShootingSearch(const ShootingProblem& problem, std::uint64_t pas
       levels_(problem.targets.size()),
       deaths_(problem.targets.size()) {}
 
+ShootingSearch::ShootingSearch(const ShootingSearch& other, std::uint64_t pass, double width,
+                               std::size_t level, std::vector<ShootingNode> beam)
+    : ShootingSearch(other.problem_, pass, width, other.hard_) {
+  begin_ = level;
+  std::copy_n(other.levels_.begin(), level, levels_.begin());
+  levels_[level] = std::move(beam);
+}
+
 void ShootingSearch::run(const std::function<bool()>& stop,
                          const std::function<void(double)>& progress) {
-  plantRoots(stop);
+  if (begin_ == 0) plantRoots(stop);
   const std::size_t n = levels_.size();
-  for (std::size_t level = 0; level < n && !stop(); ++level) {
+  for (std::size_t level = begin_; level < n && !stop(); ++level) {
     if (level + 1 == n) {
       complete_ = levels_[level];
       keepComplete(complete_, problem_.request.settings.takes);
@@ -258,7 +266,10 @@ void ShootingSearch::keepBest(std::vector<ShootingNode>& candidates, double widt
     return std::max(static_cast<int>(quota * wider), static_cast<int>(even));
   };
   const int perParent = share(set.perParent, parents.size());
-  const int perRoot = share(set.perRoot, roots.size());
+  // A search that goes on from several kinds of motion is to end with all of them.
+  const int perRoot = begin_ > 0
+                          ? std::max(1, static_cast<int>(beam / static_cast<double>(roots.size())))
+                          : share(set.perRoot, roots.size());
   for (const ShootingNode& node : candidates) {
     if (kept.size() >= most) break;
     const double above = std::max(node.energyAfter - problem_.outlook.restEnergy(), 1e-12);
@@ -281,6 +292,18 @@ const ShootingNode* ShootingSearch::farthest() const {
     if (!level->empty()) return &*std::min_element(level->begin(), level->end(), better);
   }
   return nullptr;
+}
+
+std::vector<Eigen::Vector2d> ShootingSearch::pathTo(const ShootingNode& node) const {
+  std::vector<Eigen::Vector2d> points = {node.event.after.position.head<2>()};
+  const ShootingNode* at = &node;
+  for (;; at = &levels_[static_cast<std::size_t>(at->parentLevel)]
+                       [static_cast<std::size_t>(at->parent)]) {
+    points.emplace_back(at->event.before.position.head<2>());
+    if (at->parent < 0) break;
+  }
+  std::reverse(points.begin(), points.end());
+  return points;
 }
 
 std::vector<ShootingNode> ShootingSearch::path(const ShootingNode& node) const {

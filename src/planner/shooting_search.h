@@ -77,11 +77,23 @@ class ShootingSearch {
   ShootingSearch(const ShootingProblem& problem, std::uint64_t pass, double width,
                  std::vector<bool> hard = {});
 
+  /// Goes on from `beam`: motions that `other` kept at `level`, `root` telling which of them are of
+  /// one kind. Each kind has the same share of the work.
+  ShootingSearch(const ShootingSearch& other, std::uint64_t pass, double width, std::size_t level,
+                 std::vector<ShootingNode> beam);
+
   /// Searches; `stop` is asked between batches and ends the search early.
   void run(const std::function<bool()>& stop, const std::function<void(double)>& progress);
 
   /// Complete motions, best first (at most a few dozen).
   [[nodiscard]] const std::vector<ShootingNode>& complete() const { return complete_; }
+  [[nodiscard]] std::size_t levels() const { return levels_.size(); }
+  /// What was kept of a level.
+  [[nodiscard]] const std::vector<ShootingNode>& kept(std::size_t level) const {
+    return levels_[level];
+  }
+  /// As pathOf() a plan.
+  [[nodiscard]] std::vector<Eigen::Vector2d> pathTo(const ShootingNode& node) const;
   /// The best of the motions that got farthest; nothing when not even a first contact was found.
   [[nodiscard]] const ShootingNode* farthest() const;
   /// From the first contact to `node`.
@@ -102,6 +114,7 @@ class ShootingSearch {
   std::uint64_t pass_;
   double width_;
   std::vector<bool> hard_;
+  std::size_t begin_ = 0;                          ///< level that is begun with
   std::size_t firstHard_;                          ///< 0 when none is
   std::vector<std::vector<ShootingNode>> levels_;  ///< kept, by target
   std::vector<ShootingDeaths> deaths_;             ///< on the way out of each level

@@ -231,6 +231,42 @@ TEST(ShootingPlannerTest, TheBestOfSeveralTakesIsTheOneThatIsFoundAlone) {
   EXPECT_GT(many.size(), 4U);
 }
 
+// Many contacts: a pass comes to rest by one or two ways only, the rest is made of what it has.
+TEST(ShootingPlannerTest, EightTakesOfManyContactsForAnyNumberOfThreads) {
+  PlanRequest request = dieRequest(test::signatures(test::die(), 1, 9, 11).front());
+  request.settings.takes = 8;
+  setThreadCount(1);
+  const auto plans = plansOf(request);
+  setThreadCount(2);
+  const auto others = plansOf(request);
+  setThreadCount(0);
+  ASSERT_GE(plans.size(), 5U);  // all of the eight, but for bad luck
+  ASSERT_EQ(others.size(), plans.size());
+  for (std::size_t i = 0; i < plans.size(); ++i) {
+    EXPECT_TRUE(samePlan(plans[i], others[i]));
+    EXPECT_TRUE(plans[i].solved);
+    EXPECT_GE(plans[i].score, 0.5);
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_TRUE(differentTakes(plans[i], plans[j]));
+      EXPECT_LE(plans[i].worth, plans[j].worth);
+    }
+  }
+}
+
+// Where no take may be had, none is made of those that were refused.
+TEST(ShootingPlannerTest, TakesThatAreRefusedAreNotGiven) {
+  PlanRequest request = dieRequest(test::signatures(test::die(), 1, 9, 11).front());
+  request.settings.takes = 8;
+  int asked = 0;
+  request.accepts = [&](const PlanRequest&, const Plan& plan) {
+    ++asked;
+    return plan.bendMax < 0.9;
+  };
+  const auto plans = plansOf(request);
+  EXPECT_GT(asked, 0);
+  for (const Plan& plan : plans) EXPECT_TRUE(!plan.solved || plan.bendMax < 0.9);
+}
+
 TEST(ShootingPlannerTest, ABudgetUnderOnePassIsANarrowPass) {
   PlanRequest request = dieRequest(test::signatures(test::die(), 1, 5, 9).front());
   const Plan whole = plansOf(request).front();

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// The takes of guided shooting, gathered over its passes, and what work there is for more than one
+// (docs/planner.md).
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "planner/planner.h"
+#include "planner/shooting_search.h"
+
+namespace ifa {
+
+/// A plan below this Score is not called solved (docs/method.md 5).
+inline constexpr double kLeastScore = 0.5;
+
+/// Different takes, best first. The problem must outlive it.
+class Takes {
+ public:
+  explicit Takes(const ShootingProblem& problem) : problem_(problem) {}
+
+  /// Of the takes so far and the complete motions of a search, keeps the best.
+  void add(const ShootingSearch& search);
+  /// Makes up for what is missing, and for what is much worse than the best, with good takes whose
+  /// body lands elsewhere (MovedLandings).
+  void move();
+
+  [[nodiscard]] bool enough() const { return plans_.size() >= wanted(); }
+  [[nodiscard]] std::vector<Plan>& plans() { return plans_; }
+  /// Whether a motion did not hold its audit.
+  [[nodiscard]] bool refused() const { return refused_ > 0; }
+
+ private:
+  [[nodiscard]] std::size_t wanted() const {
+    return static_cast<std::size_t>(problem_.request.settings.takes);
+  }
+  void moveFrom(std::size_t first, double leastScore);
+  void addIfNew(Plan& plan);
+  [[nodiscard]] bool isAccepted(Plan& plan);
+
+  const ShootingProblem& problem_;
+  std::vector<Plan> plans_;
+  int refused_ = 0;
+};
+
+/// How much work is left for more takes than one. It is counted in widths of passes.
+class TakesBudget {
+ public:
+  /// @param times  all takes together may cost so many times what one does
+  explicit TakesBudget(double times) : times_(times) {}
+  [[nodiscard]] double width(double planned) const {
+    return price_ > 0 ? std::min(planned, left()) : planned;
+  }
+  [[nodiscard]] double left() const { return times_ * price_ - work_; }
+  [[nodiscard]] bool spent() const { return price_ > 0 && left() < kNarrowest; }
+  /// So much more was done. @param one  whether a single take would be settled by now
+  void count(double width, bool one) {
+    work_ += width;
+    if (one && price_ == 0) price_ = work_;
+  }
+
+ private:
+  static constexpr double kNarrowest = 0.25;
+  double times_, work_ = 0, price_ = 0;
+};
+
+}  // namespace ifa
