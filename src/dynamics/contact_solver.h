@@ -56,7 +56,7 @@ struct ContactPoint {
   Vec<R> impulse{};                      ///< accumulated, N s
   Vec<R> turnX{}, turnY{}, turnZ{};      ///< change of spin by a unit impulse along each axis
   R massX{}, massY{}, massZ{};           ///< effective masses along each axis, kg
-  R lessX{}, lessY{};                    ///< change of sliding by a unit normal impulse, 1/kg
+  R lessX{}, lessY{};                    ///< friction that stops what a unit normal impulse adds
   R xx{}, xy{}, xz{}, yy{}, yz{}, zz{};  ///< inverse of the 3 x 3 inverse mass at the point, kg
 };
 
@@ -74,8 +74,10 @@ class ContactSolver {
 
   /// Changes `velocity` and `spin` (world frame) so that every point's normal velocity is at least
   /// its target and friction opposes sliding, rolling and spinning. Starts from the points'
-  /// impulses and from `moment`; leaves impulses that are `precision` (N s) from settled. A lane
-  /// that has settled is left as it is while others have not.
+  /// impulses and from `moment`; leaves impulses that are `precision` (N s) from settled, as far as
+  /// the last two changes tell: if each is the same share of the one before, those to come add up
+  /// to change^2 / (change before - change). A lane that has settled is left as it is while others
+  /// have not.
   void solve(const BodyModel& body, const WorldInertia<R>& inverse, int sweeps, R precision,
              Vec<R>& velocity, Vec<R>& spin) {
     const bool rolls = body.surface.rollingFriction > 0 || body.surface.spinningFriction > 0;
@@ -85,6 +87,7 @@ class ContactSolver {
     }
     if (rolls) spin = spin + inverse * moment;
     LaneMask<R> live(true);
+    R before(0.0);
     for (int sweep = 0; sweep < sweeps; ++sweep) {
       R change(0.0);
       for (int k = 0; k < count; ++k) {
@@ -93,7 +96,8 @@ class ContactSolver {
         change = laneMax(change, relax(body, moves, points[k], velocity, spin));
       }
       if (rolls) brake(body, inverse, live, spin);
-      live = live & (change > precision);
+      live = live & (change > precision) & (change * change > precision * (before - change));
+      before = change;
       if (!anyLane(live)) break;
     }
   }
@@ -150,8 +154,6 @@ class ContactSolver {
     const R axy = p.turnX.z * p.r.x - p.turnX.x * p.r.z;
     const R axz = p.turnX.x * p.r.y - p.turnX.y * p.r.x;
     const R ayz = p.turnY.x * p.r.y - p.turnY.y * p.r.x;
-    p.lessX = axz;
-    p.lessY = ayz;
     const R xy = axx * ayy, yz = ayy * azz;
     const R cxx = yz - ayz * ayz, cxy = axz * ayz - axy * azz;
     const R cxz = axy * ayz - axz * ayy;
@@ -161,6 +163,8 @@ class ContactSolver {
     p.massX = yz * share;
     p.massY = axx * azz * share;
     p.massZ = xy * share;
+    p.lessX = axz * p.massX;
+    p.lessY = ayz * p.massY;
     p.xx = cxx * scale;
     p.xy = cxy * scale;
     p.xz = cxz * scale;
@@ -173,21 +177,22 @@ class ContactSolver {
                     const Vec<R>& impulse, Vec<R>& velocity, Vec<R>& spin) {
     setWhere(lanes, velocity, velocity + impulse * R(body.inverseMass));
     if (body.isotropic) {
-      const Vec<R> turned = {spin.x + p.turnY.x * impulse.y + p.turnZ.x * impulse.z,
-                             spin.y + p.turnX.y * impulse.x + p.turnZ.y * impulse.z,
-                             spin.z + p.turnX.z * impulse.x + p.turnY.z * impulse.y};
+      const Vec<R> turned = {spin.x + p.turnZ.x * impulse.z + p.turnY.x * impulse.y,
+                             spin.y + p.turnZ.y * impulse.z + p.turnX.y * impulse.x,
+                             spin.z + (p.turnX.z * impulse.x + p.turnY.z * impulse.y)};
       setWhere(lanes, spin, turned);
     } else {
-      setWhere(lanes, spin, spin + p.turnX * impulse.x + p.turnY * impulse.y + p.turnZ * impulse.z);
+      const Vec<R> pressed = spin + p.turnZ * impulse.z;
+      setWhere(lanes, spin, pressed + (p.turnX * impulse.x + p.turnY * impulse.y));
     }
   }
 
   /// One Gauss-Seidel visit in the lanes `moves`; returns the size of the change, 0 in others.
   static R relax(const BodyModel& body, const LaneMask<R>& moves, ContactPoint<R>& p,
                  Vec<R>& velocity, Vec<R>& spin) {
-    const R ux = velocity.x + spin.y * p.r.z - spin.z * p.r.y - p.target.x;
-    const R uy = velocity.y + spin.z * p.r.x - spin.x * p.r.z - p.target.y;
-    const R uz = velocity.z + spin.x * p.r.y - spin.y * p.r.x - p.target.z;
+    const R ux = (velocity.x - p.target.x) + (spin.y * p.r.z - spin.z * p.r.y);
+    const R uy = (velocity.y - p.target.y) + (spin.z * p.r.x - spin.x * p.r.z);
+    const R uz = (velocity.z - p.target.z) + (spin.x * p.r.y - spin.y * p.r.x);
     const Vec<R> stick = {p.impulse.x - (p.xx * ux + p.xy * uy + p.xz * uz),
                           p.impulse.y - (p.xy * ux + p.yy * uy + p.yz * uz),
                           p.impulse.z - (p.xz * ux + p.yz * uy + p.zz * uz)};
@@ -204,14 +209,14 @@ class ContactSolver {
 
   /// Impulse of a point that slides or parts: the normal one first, then friction within its limit.
   static Vec<R> slide(const BodyModel& body, const ContactPoint<R>& p, const Vec<R>& u) {
-    const R pressed = laneMax(R(0.0), p.impulse.z - u.z * p.massZ);
-    const R push = pressed - p.impulse.z;
-    const R ux = u.x + push * p.lessX, uy = u.y + push * p.lessY;
-    const R dragX = p.impulse.x - ux * p.massX, dragY = p.impulse.y - uy * p.massY;
+    const R zero(0.0), push = laneMax(zero - p.impulse.z, (zero - u.z) * p.massZ);
+    const R pressed = p.impulse.z + push;
+    const R dragX = (p.impulse.x - u.x * p.massX) - push * p.lessX;
+    const R dragY = (p.impulse.y - u.y * p.massY) - push * p.lessY;
     const R limit = R(body.surface.friction) * pressed;
     const R size2 = dragX * dragX + dragY * dragY;
-    const R scale =
-        select(size2 > limit * limit, limit / laneSqrt(laneMax(size2, R(1e-300))), R(1.0));
+    // Nothing is slowed from 0, so that what is divided by it is not taken.
+    const R scale = select(size2 > limit * limit, limit / laneSqrt(size2), R(1.0));
     return {dragX * scale, dragY * scale, pressed};
   }
 

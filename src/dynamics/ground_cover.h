@@ -41,7 +41,7 @@ struct GroundCover {
  private:
   /// How far beyond what must be seen a new list reaches, in that distance and in radii of the
   /// body, and what kinetic energy it is good for, in that of the moment.
-  static constexpr double kFarther = 3, kFartherRadii = 0.01, kFaster = 1.5;
+  static constexpr double kFarther = 2, kFartherRadii = 0.005, kFaster = 1.5;
   /// A list made for so many times the kinetic energy is too long to keep; slower bodies than kSlow
   /// (m/s) are not told apart.
   static constexpr double kSlower = 8, kSlow = 0.05;

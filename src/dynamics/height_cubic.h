@@ -36,17 +36,18 @@ struct HeightCubic {
     const R lowHeight = at(low);
     LaneMask<R> open = lanes & (low < none) & (lowHeight > zero);
     if (!anyLane(open)) return low;
-    R touch = low, high(1.0);
-    const R endHeight = at(high);
-    const LaneMask<R> returns = open & (endHeight >= zero);
+    R touch = low, high(1.0), highHeight = h0 + c1 + c2 + c3;
+    const LaneMask<R> returns = open & (highHeight >= zero);
     if (anyLane(returns)) {
       const R bottom = lowest(turns, low);
       setWhere(returns, high, bottom);
+      setWhere(returns, highHeight, at(bottom));
       const LaneMask<R> misses = returns & (bottom >= none);
       setWhere(misses, touch, none);
       open = open & !misses;
       if (!anyLane(open)) return touch;
     }
+    setWhere(open, touch, guess(low, lowHeight, select(rises, zero, c1), high, highHeight));
     return between(low, high, open, touch);
   }
 
@@ -75,10 +76,20 @@ struct HeightCubic {
     return select(turns.real & (s > low) & (s < R(1.0)) & (height < zero), s, none);
   }
 
-  /// Newton steps, kept between `low` and `high`, in the lanes `live`; `touch` in the others.
+  /// Where the parabola that has the height and the slope of `low` and the height of `high` comes
+  /// down through 0, on the way from over it to under it.
+  [[nodiscard]] static R guess(const R& low, const R& lowHeight, const R& slope, const R& high,
+                               const R& highHeight) {
+    const R way = high - low, run = slope * way, twice = lowHeight + lowHeight;
+    const R sum = run + twice;
+    const R root = laneSqrt(sum * sum - (twice + twice) * highHeight);
+    return low + way * (twice / (root - run));
+  }
+
+  /// Newton steps from `touch`, kept between `low` and `high`, in the lanes `live`. A step as small
+  /// as the last one leaves an error of about its square.
   [[nodiscard]] R between(R low, R high, LaneMask<R> live, R touch) const {
     const R half(0.5);
-    setWhere(live, touch, half * (low + high));
     for (int i = 0; i < 30; ++i) {
       const R s = touch, height = at(s);
       const LaneMask<R> above = height > R(0.0);
@@ -88,7 +99,7 @@ struct HeightCubic {
       const LaneMask<R> inside = (next > low) & (next < high);
       next = select(inside, next, half * (low + high));
       setWhere(live, touch, next);
-      live = live & !(laneAbs(next - s) < R(1e-7));
+      live = live & !(laneAbs(next - s) < R(1e-5));
       if (!anyLane(live)) break;
     }
     return touch;

@@ -14,7 +14,7 @@ namespace ifa {
 
 /// Raised with every change after which the same start gives another motion, so that nothing stored
 /// before is taken for the same.
-inline constexpr unsigned kSimulationVersion = 2;
+inline constexpr unsigned kSimulationVersion = 3;
 
 /// What a whole drop gave.
 struct DropResult {

@@ -173,7 +173,7 @@ LaneMask<R> TouchSearch<R>::isLate(const HeightCubic<R>& height) const {
 template <class R>
 LaneMask<R> TouchSearch<R>::staysUp(const HeightCubic<R>& height) const {
   const R third(1.0 / 3), c1 = height.c1, c2 = height.c2, c3 = height.c3;
-  const R s = laneMin(share_ * R(1 + 1e-6) + R(1e-6), R(1.0));
+  const R s = laneMin(share_ * R(1 + 1e-5) + R(1e-5), R(1.0));
   const R bends = R(2.0) * laneAbs(c2) + R(3.0) * laneAbs(c3), start = laneAbs(height.h0);
   const R margin = R(2e-7) * (laneAbs(c1) + bends) + R(1e-12) * start;
   const R rise = c1 * s, bend = c2 * s * s;
