@@ -74,10 +74,8 @@ class ContactSolver {
 
   /// Changes `velocity` and `spin` (world frame) so that every point's normal velocity is at least
   /// its target and friction opposes sliding, rolling and spinning. Starts from the points'
-  /// impulses and from `moment`; leaves impulses that are `precision` (N s) from settled, as far as
-  /// the last two changes tell: if each is the same share of the one before, those to come add up
-  /// to change^2 / (change before - change). A lane that has settled is left as it is while others
-  /// have not.
+  /// impulses and from `moment`; leaves impulses that are `precision` (N s) from settled. A lane
+  /// that has settled is left as it is while others have not.
   void solve(const BodyModel& body, const WorldInertia<R>& inverse, int sweeps, R precision,
              Vec<R>& velocity, Vec<R>& spin) {
     const bool rolls = body.surface.rollingFriction > 0 || body.surface.spinningFriction > 0;
@@ -87,7 +85,6 @@ class ContactSolver {
     }
     if (rolls) spin = spin + inverse * moment;
     LaneMask<R> live(true);
-    R before(0.0);
     for (int sweep = 0; sweep < sweeps; ++sweep) {
       R change(0.0);
       for (int k = 0; k < count; ++k) {
@@ -96,8 +93,7 @@ class ContactSolver {
         change = laneMax(change, relax(body, moves, points[k], velocity, spin));
       }
       if (rolls) brake(body, inverse, live, spin);
-      live = live & (change > precision) & (change * change > precision * (before - change));
-      before = change;
+      live = live & (change > precision);
       if (!anyLane(live)) break;
     }
   }

@@ -44,7 +44,7 @@ template <class R>
 [[nodiscard]] Midpoint<R> solveMidpoint(const BodyModel& body, const KernelState<R>& state,
                                         const Rotation<R>& rotation, R step,
                                         ContactSolver<R>& solver) {
-  constexpr double kPrecision = 1e-4;  // m/s, a change of speed to which impulses are solved
+  constexpr double kPrecision = 3e-5;  // m/s, a change of speed to which impulses are solved
   const Quat<R> halfway = state.q + timesPure(state.q, state.w) * (R(0.25) * step);
   const Rotation<R> middle(renormalised(halfway));
   aimPoints(body, state, rotation, middle, step, solver);
