@@ -15,6 +15,17 @@ constexpr std::size_t kMostCuts = 24;
 
 }  // namespace
 
+Advance EventSimulation::advance(EventRecorder& recorder) {
+  ++pieces_;
+  const Advance did = stepper_.advance(Stepper::kNoLimit);
+  if (did == Advance::kImpact || did == Advance::kContact) {
+    recorder.add(stepper_.contactStep());
+  } else {
+    recorder.elapse(stepper_.state().time);
+  }
+  return did;
+}
+
 void EventSimulation::outcomes(const RigidState& arrival, double restitution, bool terminal,
                                bool cuts, std::vector<ContactEvent>& out, double mergeGap) {
   out.clear();
@@ -25,12 +36,7 @@ void EventSimulation::outcomes(const RigidState& arrival, double restitution, bo
   double end = -1;
   bool ended = false, rest = false;
   while (!ended && !rest && stepper_.state().time < kLongestEvent) {
-    const Advance did = stepper_.advance(Stepper::kNoLimit);
-    if (did == Advance::kImpact || did == Advance::kContact) {
-      recorder.add(stepper_.contactStep());
-    } else {
-      recorder.elapse(stepper_.state().time);
-    }
+    const Advance did = advance(recorder);
     rest = did == Advance::kRest;
     const auto& events = recorder.events();
     const double time = stepper_.state().time;
@@ -65,12 +71,7 @@ std::vector<double> EventSimulation::rhythm(const RigidState& state, std::size_t
   EventRecorder recorder(recorder_);
   stepper_.start(kernelState(state, 0));
   while (recorder.events().size() <= count && stepper_.state().time < horizon + kBinSlack) {
-    const Advance did = stepper_.advance(Stepper::kNoLimit);
-    if (did == Advance::kImpact || did == Advance::kContact) {
-      recorder.add(stepper_.contactStep());
-    } else {
-      recorder.elapse(stepper_.state().time);
-    }
+    const Advance did = advance(recorder);
     if (did == Advance::kRest) break;
   }
   std::vector<double> gaps;
@@ -89,12 +90,9 @@ std::optional<NextContact> EventSimulation::nextAudible(const RigidState& state,
   NextContact next;
   double firstTouch = 1e9;
   while (stepper_.state().time < horizon + kBinSlack) {
-    const Advance did = stepper_.advance(Stepper::kNoLimit);
+    const Advance did = advance(recorder);
     if (did == Advance::kImpact || did == Advance::kContact) {
-      recorder.add(stepper_.contactStep());
       firstTouch = std::min(firstTouch, stepper_.before().time);
-    } else {
-      recorder.elapse(stepper_.state().time);
     }
     if (!recorder.events().empty()) break;
     if (did == Advance::kRest) return std::nullopt;

@@ -41,9 +41,15 @@ class EventSimulation {
   /// Simulates from `state` for at most `horizon` seconds until an audible event begins.
   [[nodiscard]] std::optional<NextContact> nextAudible(const RigidState& state, double horizon);
 
+  /// Pieces of motion simulated so far (flights, impacts, steps in contact): a measure of work.
+  [[nodiscard]] long pieces() const { return pieces_; }
+
  private:
+  Advance advance(EventRecorder& recorder);
+
   RecorderSettings recorder_;
   Stepper stepper_;
+  long pieces_ = 0;
 };
 
 }  // namespace ifa

@@ -40,7 +40,9 @@ class ShootingRun {
     const double budget = settings_.passes * request_.settings.effort;
     const int passes = std::max(1, static_cast<int>(std::lround(budget)));
     const double width = std::min(1.0, budget);
+    const double most = settings_.mostPieces * std::max(1.0, request_.settings.effort);
     for (int pass = 0; pass < passes && !work_.spent() && !stop(); ++pass) {
+      if (static_cast<double>(pieces_) > most) break;
       if (!goesOn(pass, passes, work_.width(std::min(settings_.widest, width + 0.5 * pass)))) break;
     }
     if (!takes_.plans().empty() && !takes_.enough() && !stop()) takes_.move();
@@ -64,6 +66,7 @@ class ShootingRun {
     ShootingSearch search(problem_, static_cast<std::uint64_t>(pass), wide, hard_);
     search.run([this] { return stop(); },
                [&](double share) { progress_("search", (pass + share) / passes); });
+    pieces_ += search.work();
     takes_.add(search);
     const bool found = !takes_.plans().empty();
     if (!found && !learnsFrom(search) && pass > 0) return false;
@@ -155,6 +158,7 @@ class ShootingRun {
   /// Narrower than this share of the pass, they find little.
   static constexpr double kNarrowest = 0.4;
   std::uint64_t resumed_ = 0;
+  long pieces_ = 0;  ///< simulated so far
   std::vector<bool> hard_;  ///< ShootingSearch's
   std::vector<Plan> partial_;
 };

@@ -2,6 +2,7 @@
 #include "planner/shooting_search.h"
 
 #include <algorithm>
+#include <atomic>
 #include <iterator>
 #include <map>
 #include <set>
@@ -170,6 +171,7 @@ void ShootingSearch::plantRoots(const std::function<bool()>& stop) {
   const std::size_t sampled = fresh + late, count = sampled + problem_.starts.size(),
                     batches = (count + kBatch - 1) / kBatch;
   std::vector<std::vector<ShootingNode>> made(batches);
+  std::atomic<long> work = 0;
   parallelFor(batches, [&](std::size_t batch) {
     if (stop()) return;
     ShootingWorker worker(problem_);
@@ -182,7 +184,9 @@ void ShootingSearch::plantRoots(const std::function<bool()>& stop) {
       }
     }
     made[batch] = std::move(worker.children);
+    work += worker.work();
   });
+  work_ += work;
   for (auto& nodes : made) levels_[0].insert(levels_[0].end(), nodes.begin(), nodes.end());
 }
 
@@ -210,6 +214,7 @@ void ShootingSearch::expandLevel(std::size_t level, const std::function<bool()>&
       });
       for (ShootingWorker& worker : workers) {
         deaths_[level] += worker.deaths;
+        work_ += worker.work();
         auto& to = levels_[next];
         to.insert(to.end(), worker.children.begin(), worker.children.end());
       }
@@ -225,7 +230,7 @@ void ShootingSearch::expandLevel(std::size_t level, const std::function<bool()>&
 
 /// Ranks motions also by how their own rhythm, when they are left to themselves, fits the contacts
 /// that follow: where several gaps in a row cannot be flown, it must fit as it is.
-void ShootingSearch::followOn(std::vector<ShootingNode>& nodes, std::size_t level) const {
+void ShootingSearch::followOn(std::vector<ShootingNode>& nodes, std::size_t level) {
   const auto& events = problem_.request.signature.events;
   const auto& set = problem_.settings;
   const std::size_t count =
@@ -234,13 +239,16 @@ void ShootingSearch::followOn(std::vector<ShootingNode>& nodes, std::size_t leve
   for (std::size_t m = 0; m < count; ++m)
     wanted.push_back(events[level + m + 1].time - events[level + m].time);
   const double horizon = 1.3 * (events[level + count].time - events[level].time) + 0.02;
+  std::atomic<long> work = 0;
   parallelFor(nodes.size(), [&](std::size_t i) {
     EventSimulation simulation(problem_.model, problem_.recorder);
     ShootingNode& node = nodes[i];
     std::vector<double> gaps = simulation.rhythm(node.event.after, count, horizon);
     if (!gaps.empty()) gaps[0] += node.event.end;
     node.rank -= set.hardWeight * rhythmCost(gaps, wanted);
+    work += simulation.pieces();
   });
+  work_ += work;
 }
 
 void ShootingSearch::keepBest(std::vector<ShootingNode>& candidates, double width,

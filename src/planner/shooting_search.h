@@ -98,6 +98,8 @@ class ShootingSearch {
   [[nodiscard]] const ShootingNode* farthest() const;
   /// From the first contact to `node`.
   [[nodiscard]] std::vector<ShootingNode> path(const ShootingNode& node) const;
+  /// Counted work (ShootingWorker::work).
+  [[nodiscard]] long work() const { return work_; }
   [[nodiscard]] const ShootingDeaths& deathsAfter(int level) const {
     return deaths_[static_cast<std::size_t>(level)];
   }
@@ -108,7 +110,7 @@ class ShootingSearch {
   [[nodiscard]] double widthAt(std::size_t level) const;
   /// @param wider  how many times the beam of this width
   void keepBest(std::vector<ShootingNode>& candidates, double width, double wider) const;
-  void followOn(std::vector<ShootingNode>& nodes, std::size_t level) const;
+  void followOn(std::vector<ShootingNode>& nodes, std::size_t level);
 
   const ShootingProblem& problem_;
   std::uint64_t pass_;
@@ -119,6 +121,7 @@ class ShootingSearch {
   std::vector<std::vector<ShootingNode>> levels_;  ///< kept, by target
   std::vector<ShootingDeaths> deaths_;             ///< on the way out of each level
   std::vector<ShootingNode> complete_;
+  long work_ = 0;
 };
 
 }  // namespace ifa

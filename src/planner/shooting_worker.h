@@ -29,6 +29,9 @@ class ShootingWorker {
   void expand(const ShootingNode& node, int index, int level, double effort, RandomStream random,
               double bound);
 
+  /// Counted work so far: pieces of motion that were simulated.
+  [[nodiscard]] long work() const { return simulation_.pieces(); }
+
   std::vector<ShootingNode> children;
   ShootingDeaths deaths;
 
