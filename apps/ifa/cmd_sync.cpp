@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `ifa sync`: sound in, synchronised motion out.
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <filesystem>
 #include <map>
@@ -11,6 +12,7 @@
 #include "graph_options.h"
 #include "ifa/synchronize.h"
 #include "pipeline/batch.h"
+#include "pipeline/choose_object.h"
 #include "pipeline/output_files.h"
 
 namespace ifa::cli {
@@ -61,13 +63,42 @@ std::string fitOf(const Motion& motion) {
                      motion.given->restitution, moved ? "on " + motion.given->surface + " " : "");
 }
 
+// Marks in doubt that the motion does not meet where they were heard.
+void showDoubtfulMarks(Console& console, const Motion& motion) {
+  const double first = motion.sound.firstContact;
+  for (const double time : motion.dropped) {
+    console.result(fmt::format("  the mark at {:.3f} s is left out", first + time));
+  }
+  for (const MotionContact& contact : motion.contacts) {
+    if (contact.moved == 0) continue;
+    console.result(fmt::format("  the mark at {:.3f} s is met {:+.1f} ms from there",
+                               first + contact.targetTime - contact.moved, 1e3 * contact.moved));
+  }
+}
+
 void showTake(Console& console, const Motion& motion, const fs::path& folder) {
   console.result(fmt::format("{} on {}{}: {}", motion.object.name, motion.object.surface,
                              fitOf(motion),
                              motion.success ? describe(motion) : "no acceptable motion"));
+  showDoubtfulMarks(console, motion);
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
     if (roleOf(name) != "object") console.result("  " + entry.path().string());
+  }
+}
+
+// Which of several objects explains the sound, and how sure that is.
+void showRanking(Console& console, const std::vector<ObjectRank>& ranking) {
+  if (ranking.empty()) return;
+  for (const ObjectRank& rank : ranking) {
+    console.result(rank.solved ? fmt::format("{}: {}; behind the best by {:.1f}", rank.object,
+                                             rank.reason, rank.behind)
+                               : fmt::format("{}: no: {}", rank.object, rank.reason));
+  }
+  const auto good = asGoodAsBest(ranking);
+  if (good.size() > 1) {
+    console.result(fmt::format("in doubt: {} explain the sound about equally well; taking {}",
+                               fmt::join(good, ", "), good.front()));
   }
 }
 
@@ -76,6 +107,7 @@ int syncSound(const SyncOptions& options, CommandContext& context) {
       synchronizeToFolder(options.settings, options.output, options.files, context.progress);
   if (!result) return context.fail(result.error());
   for (const std::string& warning : result->warnings) context.console.warn(warning);
+  showRanking(context.console, result->ranking);
   const auto& takes = result->takes;
   const auto wanted = static_cast<std::size_t>(options.settings.takes);
   for (std::size_t i = 0; i < takes.size(); ++i) {
@@ -175,7 +207,10 @@ void addSyncCommand(CLI::App& app, CommandContext& context) {
           "SOUND", options->settings.sound,
           "WAV, FLAC, Ogg or MP3; contacts alone (MIDI, signature JSON, CSV); or a folder of them")
       ->required();
-  command->add_option("--object", options->settings.object, "name (see ifa objects) or object file")
+  command
+      ->add_option(
+          "--object", options->settings.object,
+          "name (see ifa objects) or object file; \"auto\" or a list with commas: the best of them")
       ->required();
   command->add_option("--labels", options->settings.labels,
                       "contacts of the sound: Audacity labels, WAV with cue points, CSV, JSON or "

@@ -6,6 +6,12 @@
 
 namespace ifa {
 
+/// Another moment at which a contact may begin, where its mark is in doubt.
+struct AlternativeStart {
+  double time = 0;  ///< s after the first event's start
+  double cost = 0;  ///< log units that taking it costs beside the factors, >= 0
+};
+
 /// One contact event of a sound (IFA section 3).
 struct SignatureEvent {
   double time = 0;       ///< start, s after the first event's start
@@ -13,6 +19,7 @@ struct SignatureEvent {
   double amplitude = 1;  ///< relative to the first event's
   double centroid = 0;   ///< eq. 8, s after the event's start; 0 for a discrete event
   double weight = 1;  ///< 1: must be met; less: may be dropped at that price, save first and last
+  std::vector<AlternativeStart> alternatives = {};  ///< none of the first event
 };
 
 /// Contact-time signature (IFA section 3): events in order of time, the first at 0.

@@ -44,6 +44,7 @@ struct ContactSource {
 /// contact.
 struct MotionContact {
   double targetTime = 0, time = 0;
+  double moved = 0;  ///< s by which the target lies after its mark, where that was in doubt
   double targetDuration = 0, duration = 0;  ///< filtered: 0 for discrete events
   double targetAmplitude = 1, amplitude = 1;
   double targetCentroid = 0, centroid = 0;
@@ -119,6 +120,7 @@ struct Motion {
   std::optional<DatabaseReference> database;
   EventCut cut = EventCut::kAudible;  ///< what its contacts are, for who looks for them
   std::vector<MotionContact> contacts;
+  std::vector<double> dropped;  ///< doubtful marks that no contact meets, s after the first contact
   std::vector<std::array<double, 2>> silent;  ///< intervals of silent contact, s
   std::vector<MotionSample>
       trajectory;  ///< non-decreasing times; two samples share an impact's time

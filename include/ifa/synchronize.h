@@ -44,9 +44,11 @@ struct SynchronizeSettings {
   /// Audacity labels, WAV with cue points, CSV, signature JSON, MIDI; empty: the sound's own cue
   /// points, or where it has none the contacts are detected.
   std::filesystem::path labels;
-  bool ignoreCues = false;            ///< the sound's cue points are no contacts
-  MidiOptions midi;                   ///< of a MIDI file, as sound or as labels
-  std::string object;                 ///< name in the library, or path of an object file
+  bool ignoreCues = false;  ///< the sound's cue points are no contacts
+  MidiOptions midi;         ///< of a MIDI file, as sound or as labels
+  /// Name in the library, or path of an object file; several with commas, or "auto" for the whole
+  /// library: the one that explains the sound best (docs/choosing.md).
+  std::string object;
   std::string surface;                ///< empty: the object's default
   std::optional<double> restitution;  ///< 0 to 0.95, instead of the surface's
   double restitutionScale = 1;  ///< times the surface's, at most 0.95: to plan with wrong ones
@@ -64,6 +66,15 @@ struct SynchronizeSettings {
   double preRollSeconds = 0.5;   ///< flight shown before the first contact
 };
 
+/// How well one object explains a sound, where several were tried.
+struct ObjectRank {
+  std::string object;
+  bool solved = false;
+  double score = 0;    ///< of its best motion, eq. 12; 0 where none is acceptable
+  double behind = 0;   ///< log units of affinity behind the best one, all contacts together
+  std::string reason;  ///< one line about its motion, or why there is none
+};
+
 /// The motions found for one sound, best first; where none is acceptable, the best partial one,
 /// with `success` false and `failure` saying why.
 struct Synchronization {
@@ -71,6 +82,7 @@ struct Synchronization {
   std::vector<Motion> takes;          ///< at least one
   bool interrupted = false;           ///< asked to stop before all takes, or their films, were done
   std::vector<std::string> warnings;  ///< what the user should know of the files; mostly empty
+  std::vector<ObjectRank> ranking;    ///< of the objects tried, best first; of one alone empty
 };
 
 /// Files of one motion; motion.json is always among them.

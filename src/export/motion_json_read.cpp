@@ -95,6 +95,7 @@ MotionContact readContact(const JsonNode& node) {
   contact.position = node.member("position").vector();
   contact.impulseChange = node.member("impulse_change").vector();
   contact.angularChange = node.member("angular_change").vector();
+  if (node.has("moved")) contact.moved = time("moved");
   if (!node.has("arrival_bend")) return contact;
   contact.arrivalImpulseChange = node.member("arrival_impulse_change").vector();
   contact.arrivalAngularChange = node.member("arrival_angular_change").vector();
@@ -111,6 +112,13 @@ void readContacts(const JsonNode& node, Motion& motion) {
     if (i > 0 && contact.time < motion.contacts[i - 1].end) {
       node.item(i).reject("starts before the contact before it ends");
     }
+  }
+}
+
+void readDropped(const JsonNode& node, Motion& motion) {
+  motion.dropped.resize(node.count());
+  for (std::size_t i = 0; i < motion.dropped.size(); ++i) {
+    motion.dropped[i] = node.item(i).number(-kLongest, kLongest);
   }
 }
 
@@ -180,6 +188,7 @@ Result<Motion> parseMotion(std::string_view json, const std::string& place) {
     readObjectAndSound(root, motion);
     readOutcome(root, motion);
     readContacts(root.member("contacts"), motion);
+    if (root.has("dropped")) readDropped(root.member("dropped"), motion);
     readSilent(root.member("silent"), motion);
     readTrajectory(root.member("trajectory"), motion);
   }

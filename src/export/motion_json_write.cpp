@@ -131,6 +131,7 @@ void appendContact(Text& out, const MotionContact& contact) {
   out.field("centroid", contact.centroid).field("target_centroid", contact.targetCentroid);
   out.field("end", contact.end).field("restitution", contact.restitution);
   out.field("position", contact.position).field("impulse_change", contact.impulseChange);
+  if (contact.moved != 0) out.field("moved", contact.moved);
   if (contact.arrivalBend > 0) {
     out.field("arrival_impulse_change", contact.arrivalImpulseChange);
     out.field("arrival_angular_change", contact.arrivalAngularChange);
@@ -163,6 +164,10 @@ Result<std::string> formatMotion(const Motion& motion) {
   out.key("contacts").array(motion.contacts.size(), 1, "  ", [&](std::size_t i) {
     appendContact(out, motion.contacts[i]);
   });
+  if (!motion.dropped.empty()) {
+    out.raw(",\n ").key("dropped").array(motion.dropped.size(), 16, "  ",
+                                         [&](std::size_t i) { out.value(motion.dropped[i]); });
+  }
   out.raw(",\n ").key("silent").array(motion.silent.size(), 8, "  ",
                                       [&](std::size_t i) { out.value(motion.silent[i]); });
   out.raw(",\n ");

@@ -61,7 +61,15 @@ class Builder {
   }
 
   void contacts() {
-    for (std::size_t k = 0; k < plan_.contacts.size(); ++k) motion_.contacts.push_back(contact(k));
+    int next = 0;
+    for (std::size_t k = 0; k < plan_.contacts.size(); ++k) {
+      motion_.contacts.push_back(contact(k));
+      for (; next < plan_.contacts[k].target; ++next) {
+        const auto dropped = static_cast<std::size_t>(next);
+        motion_.dropped.push_back(request_.signature.events[dropped].time);
+      }
+      ++next;
+    }
   }
 
  private:
@@ -156,7 +164,8 @@ class Builder {
         request_.signature.events[static_cast<std::size_t>(planned.target)];
     const double mergeGap = request_.body->definition.mergeGap;
     MotionContact c;
-    c.targetTime = target.time;
+    c.targetTime = target.time + planned.moved;
+    c.moved = planned.moved;
     c.targetDuration = target.duration;
     c.targetAmplitude = target.amplitude;
     c.targetCentroid = target.centroid;

@@ -12,6 +12,7 @@
 
 #include "base/version.h"
 #include "export/motion_json.h"
+#include "pipeline/choose_object.h"
 #include "pipeline/output_files.h"
 
 namespace ifa {
@@ -89,6 +90,15 @@ bool sameRestitution(const Motion& motion, const SynchronizeSettings& settings) 
   return given == settings.restitution.value_or(given);
 }
 
+// Where the best of several objects was taken, any of them.
+bool sameObject(const Motion& motion, const SynchronizeSettings& settings) {
+  const auto objects = candidateObjects(settings.object);
+  if (!objects || objects->empty()) {
+    return motion.object.name == fs::path(settings.object).stem().string();
+  }
+  return std::find(objects->begin(), objects->end(), motion.object.name) != objects->end();
+}
+
 bool isDone(const BatchItem& item, const SynchronizeSettings& settings, const fs::path& folder,
             const OutputSettings& output) {
   for (const auto& file : motionFiles(folder, settings.takes)) {
@@ -98,8 +108,7 @@ bool isDone(const BatchItem& item, const SynchronizeSettings& settings, const fs
     const auto motion = readMotionJson(file);
     const bool same = motion && sameRestitution(*motion, settings) && motion->success &&
                       motion->seed == settings.seed && motion->program == programVersion() &&
-                      motion->planner == settings.planner &&
-                      motion->object.name == fs::path(settings.object).stem().string() &&
+                      motion->planner == settings.planner && sameObject(*motion, settings) &&
                       (settings.surface.empty() || motion->object.surface == settings.surface);
     if (!same || !holds(file.parent_path(), output)) return false;
   }

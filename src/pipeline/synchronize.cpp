@@ -16,6 +16,7 @@
 #include "body/symmetry.h"
 #include "motion/build_motion.h"
 #include "pipeline/check_settings.h"
+#include "pipeline/choose_object.h"
 #include "pipeline/copy_object.h"
 #include "pipeline/fit.h"
 #include "pipeline/hear.h"
@@ -230,6 +231,24 @@ Result<Synchronization> run(const SynchronizeSettings& settings, Job& job,
   return result;
 }
 
+// The same settings with the one object that explains the sound best, where several are named.
+struct Chosen {
+  SynchronizeSettings settings;
+  ObjectRanking ranking;
+};
+
+Result<Chosen> choose(const SynchronizeSettings& settings, const Progress& progress) {
+  Chosen chosen{settings, {}};
+  const auto objects = candidateObjects(settings.object);
+  if (!objects) return tl::unexpected(objects.error());
+  if (objects->empty()) return chosen;
+  auto ranking = chooseObject(settings, *objects, progress);
+  if (!ranking) return tl::unexpected(ranking.error());
+  chosen.settings.object = ranking->front().object;
+  chosen.ranking = std::move(*ranking);
+  return chosen;
+}
+
 }  // namespace
 
 Result<Synchronization> synchronizeWith(const SynchronizeSettings& settings, GraphShelf& shelf,
@@ -243,13 +262,20 @@ Result<Synchronization> synchronizeWith(const SynchronizeSettings& settings, Gra
 }
 
 Result<Synchronization> synchronize(const SynchronizeSettings& settings, const Progress& progress) {
+  auto chosen = choose(settings, progress);
+  if (!chosen) return tl::unexpected(chosen.error());
   GraphShelf shelf(settings.graph, settings.energyGain);
-  return synchronizeWith(settings, shelf, progress);
+  auto result = synchronizeWith(chosen->settings, shelf, progress);
+  if (result) result->ranking = std::move(chosen->ranking);
+  return result;
 }
 
-Result<Synchronization> synchronizeToFolder(const SynchronizeSettings& settings,
+Result<Synchronization> synchronizeToFolder(const SynchronizeSettings& wanted,
                                             const fs::path& folder, const OutputSettings& output,
                                             const Progress& progress) {
+  auto chosen = choose(wanted, progress);
+  if (!chosen) return tl::unexpected(chosen.error());
+  const SynchronizeSettings& settings = chosen->settings;
   auto job = prepare(settings);
   if (!job) return tl::unexpected(job.error());
   const std::vector<fs::path> inputs = {settings.sound, settings.labels};
@@ -272,6 +298,7 @@ Result<Synchronization> synchronizeToFolder(const SynchronizeSettings& settings,
     return tl::unexpected(good.error());
   }
   result->warnings.insert(result->warnings.end(), told->begin(), told->end());
+  result->ranking = std::move(chosen->ranking);
   // A film that was not finished is missed; what was found is written all the same.
   result->interrupted = result->interrupted || progress.stopRequested();
   return result;

@@ -70,6 +70,7 @@ struct PlannedContact {
   ContactEvent event;      ///< in its own simulation's time and frame; `before` starts it
   Placement placement;     ///< lays that frame into the plan's world, and says which image is seen
   double time = 0;         ///< start in the plan, s after the first contact
+  double moved = 0;        ///< s from the target's mark to the alternative that it meets
   double restitution = 0;  ///< used inside this event
   /// Added to `event.after` before the flight (or silent contact) to the next contact. In the
   /// event's frame, as the next one.

@@ -13,6 +13,7 @@ PlannedContact contactOf(const ShootingNode& node) {
   PlannedContact contact;
   contact.event = node.event;
   contact.time = node.start;
+  contact.moved = node.moved;
   contact.restitution = node.restitution;
   contact.relativeAmplitude = node.heard.amplitude;
   contact.bend = node.bend;

@@ -158,7 +158,7 @@ class ShootingRun {
   /// Narrower than this share of the pass, they find little.
   static constexpr double kNarrowest = 0.4;
   std::uint64_t resumed_ = 0;
-  long pieces_ = 0;  ///< simulated so far
+  long pieces_ = 0;         ///< simulated so far
   std::vector<bool> hard_;  ///< ShootingSearch's
   std::vector<Plan> partial_;
 };

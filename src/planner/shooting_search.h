@@ -39,11 +39,14 @@ struct ShootingProblem {
 
 /// A motion up to one contact.
 struct ShootingNode {
+  static constexpr double kNotSilent = 1e9;
+
   int parent = -1, parentLevel = -1, level = 0;
   unsigned root = 0;
-  ContactEvent event;                                        ///< in its own time, from 0
-  double start = 0;                                          ///< s after the first contact
-  double restitution = 0;                                    ///< inside this event
+  ContactEvent event;      ///< in its own time, from 0
+  double start = 0;        ///< s after the first contact
+  double moved = 0;        ///< s from the target's mark to the alternative that is met
+  double restitution = 0;  ///< inside this event
   Eigen::Vector3d velocityChange = Eigen::Vector3d::Zero();  ///< that leads here from the parent
   Eigen::Vector3d angularChange = Eigen::Vector3d::Zero();
   /// By how much the event's own velocities differ from those with which the body arrives.
@@ -57,8 +60,8 @@ struct ShootingNode {
   double ugly = 0;  ///< log units that its large bends cost beside their factors
   double rank = 0;
   double flightCost = 0;  ///< log units of the least change that flies to the next target
-  double silentOff =
-      1e9;  ///< how far the unchanged motion misses the next target after silent contact
+  /// How far the unchanged motion misses the next target after silent contact.
+  double silentOff = kNotSilent;
   double energyBefore = 0, energyAfter = 0;  ///< J
 
   /// Log score as far as known, large bends counted twice.

@@ -82,8 +82,6 @@ double ShootingWorker::variedRestitution(int level, int attempt, RandomStream& r
 
 void ShootingWorker::expand(const ShootingNode& node, int index, int level, double effort,
                             RandomStream random, double bound) {
-  const auto& set = problem_.settings;
-  const int n = static_cast<int>(problem_.targets.size());
   ShootingNode child;
   child.parent = index;
   child.parentLevel = node.level;
@@ -93,7 +91,27 @@ void ShootingWorker::expand(const ShootingNode& node, int index, int level, doub
   child.log = node.log;
   child.ugly = node.ugly;
   child.log.sound -= droppedBetween(node.level, level);
-  child.start = problem_.request.signature.events[static_cast<std::size_t>(level)].time;
+  const SignatureEvent& target = problem_.request.signature.events[static_cast<std::size_t>(level)];
+  child.start = target.time;
+  // What it takes to the very next mark is known from its rank.
+  const Way known{node.flightCost, node.silentOff, 0};
+  const bool next = level == node.level + 1;
+  expandTo(node, child, next ? known : wayTo(node, level, child.start), effort, random, bound);
+  for (const AlternativeStart& other : target.alternatives) {
+    child.start = other.time;
+    child.moved = other.time - target.time;
+    ShootingNode elsewhere = child;
+    elsewhere.log.sound -= other.cost;
+    expandTo(node, elsewhere, wayTo(node, level, other.time), effort, random, bound);
+  }
+}
+
+/// The same where it is clear when the contact is to begin.
+void ShootingWorker::expandTo(const ShootingNode& node, ShootingNode child, const Way& way,
+                              double effort, RandomStream& random, double bound) {
+  const auto& set = problem_.settings;
+  const int n = static_cast<int>(problem_.targets.size()), level = child.level,
+            index = child.parent;
   const double duration = child.start - node.start - node.event.end;
   if (duration < shortestPassage()) {
     ++deaths.noTime;
@@ -101,7 +119,7 @@ void ShootingWorker::expand(const ShootingNode& node, int index, int level, doub
   }
   const PlausibleRegion region = regionOf(node.event);
   // The least change that flies there is known; where even that bends too much, none will do.
-  const bool flies = node.flightCost < -logVelocity(1.2 * settings().bendCap);
+  const bool flies = way.flightCost < -logVelocity(1.2 * settings().bendCap);
   const int more = level >= n - set.lastContacts ? set.lastFactor : 1;
   if (!flies) ++deaths.bent;
   const int count = flies ? static_cast<int>(set.children * more * effort) : 0;
@@ -126,7 +144,7 @@ void ShootingWorker::expand(const ShootingNode& node, int index, int level, doub
   }
   // Where nothing flies there, silence is the only way, however far off it is now: a body that tips
   // over an edge takes any time, for a very small change.
-  if (node.silentOff > (flies ? set.silentReach : kNever) || index >= silentBeam) return;
+  if (way.silentOff > (flies ? set.silentReach : kNever) || index >= silentBeam) return;
   const int probes = static_cast<int>((flies ? 0.5 : 1) * set.silentProbes);
   shootSilently(node, child, region, duration, probes, random, bound);
 }
@@ -308,26 +326,51 @@ void ShootingWorker::judge(ShootingNode& node) const {
   if (off > 0) node.rank -= problem_.settings.outlookWeight * off * off;
 }
 
-/// Log units that the motion would lose on its way to the next target with the smallest change that
-/// flies there, or, where it does not just fly, by how far it misses that target unchanged.
+/// Log units that the motion would lose on its way to the next target, or to another moment at
+/// which that may begin, or, where it may be left out, to the one after it.
 double ShootingWorker::lookAhead(ShootingNode& node) const {
-  const double hopeless = problem_.settings.hopeless;
-  const double time =
-      problem_.request.signature.events[static_cast<std::size_t>(node.level + 1)].time;
-  const double duration = time - node.start - node.event.end;
-  if (duration < shortestPassage()) return 2 * hopeless;
-  const double flying = flightCost(node, duration);
-  node.flightCost = flying;
-  if (flying < 1) return flying;
-  const double horizon = silentHorizon(duration);
-  const auto next = simulation_.nextAudible(node.event.after, horizon);
-  if (next && !next->silentContact) return std::min(flying, hopeless);
-  const double delay = next ? std::min(next->delay, horizon) : horizon;
-  node.silentOff = std::abs(delay - duration) / std::max(0.004, 0.1 * duration);
-  return std::min({hopeless, flying, 0.5 + node.silentOff * node.silentOff});
+  const auto& events = problem_.request.signature.events;
+  const int level = node.level + 1;
+  const SignatureEvent& target = events[static_cast<std::size_t>(level)];
+  const Way next = wayTo(node, level, target.time);
+  node.flightCost = next.flightCost;
+  node.silentOff = next.silentOff;
+  double cost = next.cost;
+  for (const AlternativeStart& other : target.alternatives) {
+    if (other.cost < cost) cost = std::min(cost, other.cost + wayTo(node, level, other.time).cost);
+  }
+  const double dropped = droppedBetween(node.level, level + 1);
+  const bool last = level + 1 == static_cast<int>(events.size());
+  if (target.weight < 1 && !last && dropped < cost) {
+    const double time = events[static_cast<std::size_t>(level + 1)].time;
+    cost = std::min(cost, dropped + wayTo(node, level + 1, time).cost);
+  }
+  return cost;
 }
 
-double ShootingWorker::flightCost(const ShootingNode& node, double duration) const {
+/// With the smallest change that flies there at `time`, or, where the motion does not just fly, by
+/// how far it misses that time unchanged.
+auto ShootingWorker::wayTo(const ShootingNode& node, int level, double time) const -> Way {
+  const double hopeless = problem_.settings.hopeless;
+  const double duration = time - node.start - node.event.end;
+  Way way;
+  if (duration < shortestPassage()) return {0, ShootingNode::kNotSilent, 2 * hopeless};
+  way.flightCost = flightCost(node, level, duration);
+  way.cost = way.flightCost;
+  if (way.flightCost < 1) return way;
+  const double horizon = silentHorizon(duration);
+  const auto next = simulation_.nextAudible(node.event.after, horizon);
+  if (next && !next->silentContact) {
+    way.cost = std::min(way.flightCost, hopeless);
+    return way;
+  }
+  const double delay = next ? std::min(next->delay, horizon) : horizon;
+  way.silentOff = std::abs(delay - duration) / std::max(0.004, 0.1 * duration);
+  way.cost = std::min({hopeless, way.flightCost, 0.5 + way.silentOff * way.silentOff});
+  return way;
+}
+
+double ShootingWorker::flightCost(const ShootingNode& node, int level, double duration) const {
   const double mostEnergy = node.energyBefore * (1 + settings().energyGain);
   const auto flight = timeFlight(problem_.model, node.event.after, regionOf(node.event),
                                  Coordinates::Zero(), duration, mostEnergy);
@@ -336,8 +379,8 @@ double ShootingWorker::flightCost(const ShootingNode& node, double duration) con
   const auto touch = firstTouch(problem_.model, flight->departure, duration + 1e-3);
   const bool clear = touch && std::abs(touch->time - duration) < kTouchPrecision;
   const double cost = -logVelocity(flight->bend) + (allowed ? 0 : 2) + (clear ? 0 : 2);
-  const bool closes = node.level + 2 == static_cast<int>(problem_.targets.size()) &&
-                      problem_.request.signature.terminal;
+  const bool closes =
+      level + 1 == static_cast<int>(problem_.targets.size()) && problem_.request.signature.terminal;
   return closes && touch ? cost + endingCost(node, touch->state) : cost;
 }
 

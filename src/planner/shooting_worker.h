@@ -48,6 +48,15 @@ class ShootingWorker {
     Eigen::Vector3d linear = Eigen::Vector3d::Zero(), angular = Eigen::Vector3d::Zero();
   };
 
+  /// How a motion gets from its last contact to another one.
+  struct Way {
+    double flightCost = 0,
+           silentOff = ShootingNode::kNotSilent;  ///< the node's for its next target
+    double cost = 0;                              ///< log units
+  };
+  void expandTo(const ShootingNode& node, ShootingNode child, const Way& way, double effort,
+                RandomStream& random, double bound);
+  [[nodiscard]] Way wayTo(const ShootingNode& node, int level, double time) const;
   void shoot(const ShootingNode& node, ShootingNode child, const PlausibleRegion& region,
              const Coordinates& wish, double duration, double restitution, double bound);
   void shootSilently(const ShootingNode& node, const ShootingNode& child,
@@ -69,7 +78,7 @@ class ShootingWorker {
                                 ShootingNode& ending) const;
   void judge(ShootingNode& child) const;
   [[nodiscard]] double lookAhead(ShootingNode& node) const;
-  [[nodiscard]] double flightCost(const ShootingNode& node, double duration) const;
+  [[nodiscard]] double flightCost(const ShootingNode& node, int level, double duration) const;
   [[nodiscard]] const PlannerSettings& settings() const { return problem_.request.settings; }
   [[nodiscard]] double shortestPassage() const;
   [[nodiscard]] static double silentHorizon(double duration);

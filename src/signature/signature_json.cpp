@@ -18,6 +18,8 @@ constexpr std::size_t kMaxBytes = std::size_t{16} << 20;
 constexpr std::size_t kMaxEvents = 10000;
 constexpr double kMaxSeconds = 3600;
 constexpr double kMaxAmplitude = 1e6;
+constexpr std::size_t kMaxAlternatives = 16;  // each is one search more
+constexpr double kMaxCost = 1e3;
 constexpr double kMinFirstAmplitude = 1e-9;
 
 /// What a number in the file may be.
@@ -56,6 +58,23 @@ class Fields {
   std::optional<Error> error_;
 };
 
+void readAlternatives(const Json& json, const std::string& prefix, SignatureEvent& event,
+                      Fields& fields) {
+  const auto found = json.find("alternatives");
+  if (found == json.end()) return;
+  const std::string field = prefix + "alternatives";
+  if (!found->is_array() || found->size() > kMaxAlternatives) {
+    return fields.complain(fmt::format("must be a list of at most {}", kMaxAlternatives), field,
+                           "{\"time\": s, \"cost\": log units}");
+  }
+  for (std::size_t i = 0; i < found->size(); ++i) {
+    const std::string inner = fmt::format("{}[{}].", field, i);
+    if (!(*found)[i].is_object()) return fields.complain("is not an object", inner, {});
+    event.alternatives.push_back({fields.number((*found)[i], inner, "time", {0, kMaxSeconds}, NAN),
+                                  fields.number((*found)[i], inner, "cost", {0, kMaxCost}, NAN)});
+  }
+}
+
 SignatureEvent readEvent(const Json& json, const std::string& prefix, Fields& fields) {
   SignatureEvent event;
   event.time = fields.number(json, prefix, "time", {0, kMaxSeconds}, NAN);
@@ -63,6 +82,7 @@ SignatureEvent readEvent(const Json& json, const std::string& prefix, Fields& fi
   event.amplitude = fields.number(json, prefix, "amplitude", {0, kMaxAmplitude}, 1);
   event.centroid = fields.number(json, prefix, "centroid", {0, kMaxSeconds}, 0);
   event.weight = fields.number(json, prefix, "weight", {0, 1}, 1);
+  readAlternatives(json, prefix, event, fields);
   if (event.centroid > event.duration + 1e-9) {
     fields.complain("lies after the event's end", prefix + "centroid",
                     "count it from the event's start, in seconds");
@@ -82,6 +102,22 @@ void checkOrder(const std::vector<SignatureEvent>& events, Fields& fields) {
   }
 }
 
+void checkAlternatives(const std::vector<SignatureEvent>& events, Fields& fields) {
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    const std::string field = fmt::format("events[{}].alternatives", i);
+    if (i == 0 && !events[i].alternatives.empty()) {
+      fields.complain("belong to the first event", field, "all times count from it; move it");
+    }
+    for (const AlternativeStart& other : events[i].alternatives) {
+      const bool last = i + 1 == events.size();
+      if (i > 0 && other.time > events[i - 1].time && (last || other.time < events[i + 1].time)) {
+        continue;
+      }
+      fields.complain("lie outside the events before and after", field, {});
+    }
+  }
+}
+
 void readEvents(const Json& json, ContactSignature& signature, Fields& fields) {
   const auto events = json.find("events");
   if (events == json.end() || !events->is_array() || events->empty()) {
@@ -96,6 +132,7 @@ void readEvents(const Json& json, ContactSignature& signature, Fields& fields) {
     signature.events.push_back(readEvent((*events)[i], prefix, fields));
   }
   checkOrder(signature.events, fields);
+  checkAlternatives(signature.events, fields);
 }
 
 /// First event at 0 with amplitude 1.
@@ -109,6 +146,7 @@ void normalise(ContactSignature& signature, Fields& fields) {
   for (SignatureEvent& event : signature.events) {
     event.time -= first.time;
     event.amplitude /= first.amplitude;
+    for (AlternativeStart& other : event.alternatives) other.time -= first.time;
   }
 }
 
@@ -157,6 +195,9 @@ std::string formatSignature(const ContactSignature& signature) {
                       {"amplitude", event.amplitude},
                       {"centroid", event.centroid},
                       {"weight", event.weight}});
+    for (const AlternativeStart& other : event.alternatives) {
+      events.back()["alternatives"].push_back({{"time", other.time}, {"cost", other.cost}});
+    }
   }
   json["terminal"] = signature.terminal;
   json["first_contact"] = signature.firstContact;

@@ -32,6 +32,8 @@ Motion fullMotion() {
   motion.contacts[2].arrivalImpulseChange = {0.1 + 0.2, -1e-7, 1.0 / 3};
   motion.contacts[2].arrivalAngularChange = {1e-300, 2.0 / 3, -0.7};
   motion.contacts[2].arrivalBend = 1.0 / 7;
+  motion.contacts[1].moved = -0.1 / 3;
+  motion.dropped = {0.1 + 0.2, 0.4};
   return motion;
 }
 
@@ -74,6 +76,7 @@ TEST(MotionJson, LeavesOutWhatIsNotThere) {
   EXPECT_FALSE(parseMotion(json.dump(), "m.json")->given);
   EXPECT_TRUE(json["failure"].is_null());
   EXPECT_FALSE(json.contains("database"));
+  EXPECT_FALSE(json["contacts"][0].contains("moved"));
   for (const char* field : {"arrival_bend", "arrival_impulse_change", "arrival_angular_change"}) {
     EXPECT_FALSE(json["contacts"][1].contains(field));
     EXPECT_TRUE(json["contacts"][2].contains(field));
@@ -100,6 +103,9 @@ TEST(MotionJson, ComesBackToTheLastBit) {
   EXPECT_EQ(read->contacts[2].arrivalAngularChange, original.contacts[2].arrivalAngularChange);
   EXPECT_EQ(read->contacts[2].arrivalBend, 1.0 / 7);
   EXPECT_EQ(read->contacts[1].arrivalBend, 0);
+  EXPECT_EQ(read->contacts[1].moved, -0.1 / 3);
+  EXPECT_EQ(read->contacts[0].moved, 0);
+  EXPECT_EQ(read->dropped, original.dropped);
   EXPECT_EQ(read->contacts[1].source.event, std::int64_t{1} << 60);
   EXPECT_EQ(read->contacts[1].factors.p, 1.0 / 3);
   EXPECT_EQ(read->silent, original.silent);

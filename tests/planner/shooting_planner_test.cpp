@@ -324,6 +324,32 @@ TEST(ShootingPlannerTest, AnOptionalEventThatFitsIsMet) {
   EXPECT_EQ(plan.contacts.size(), 3U);
 }
 
+TEST(ShootingPlannerTest, AMarkInDoubtMayBeMetElsewhere) {
+  PlanRequest request = dieRequest(clicks(
+      {{0, 0, 1, 0, 1}, {0.25, 0, 0.8, 0, 1}, {0.255, 0, 0.6, 0, 1}, {0.45, 0, 0.6, 0, 1}}, false));
+  SignatureEvent& doubtful = request.signature.events[2];
+  doubtful.alternatives = {{0.257, 0.1}, {0.37, 0.5}};
+  const Plan plan = plansOf(request).front();
+  ASSERT_TRUE(plan.solved) << plan.failure;
+  ASSERT_EQ(plan.contacts.size(), 4U);
+  EXPECT_NEAR(plan.contacts[2].time, 0.37, 1e-6);
+  EXPECT_NEAR(plan.contacts[2].moved, 0.37 - 0.255, 1e-12);
+  EXPECT_EQ(plan.contacts[3].moved, 0);
+  // It has its price.
+  doubtful.alternatives[1].cost = 3;
+  EXPECT_LT(plansOf(request).front().score, plan.score);
+}
+
+TEST(ShootingPlannerTest, AMarkThatFitsStaysWhereItIs) {
+  PlanRequest request = dieRequest(easy());
+  const double score = plansOf(request).front().score;
+  request.signature.events[1].alternatives = {{request.signature.events[1].time + 0.004, 1}};
+  const Plan plan = plansOf(request).front();
+  ASSERT_TRUE(plan.solved) << plan.failure;
+  EXPECT_EQ(plan.contacts[1].moved, 0);
+  EXPECT_GT(plan.score, score - 0.05);
+}
+
 TEST(ShootingPlannerTest, StopsWhenAsked) {
   const std::atomic<bool> stop{true};
   Progress progress;

@@ -85,6 +85,13 @@ TEST(ParseSignature, EachBadFileHasItsOwnMessage) {
   EXPECT_THAT(complaintAfter("/events/0/centroid", 0.5), HasSubstr("after the event's end"));
   EXPECT_THAT(complaintAfter("/events/0/weight", 1.5), HasSubstr("events[0].weight"));
   EXPECT_THAT(complaintAfter("/first_contact", -1), HasSubstr("first_contact"));
+  EXPECT_THAT(complaintAfter("/events/1/alternatives", 0.3), HasSubstr("events[1].alternatives"));
+  EXPECT_THAT(complaintAfter("/events/1/alternatives", {{{"time", 0.3}}}),
+              HasSubstr("events[1].alternatives[0].cost: is missing"));
+  EXPECT_THAT(complaintAfter("/events/1/alternatives", {{{"time", 0}, {"cost", 1}}}),
+              HasSubstr("outside the events"));
+  EXPECT_THAT(complaintAfter("/events/0/alternatives", {{{"time", 0.1}, {"cost", 1}}}),
+              HasSubstr("first event"));
   Json many = good();
   for (int i = 0; i < 10000; ++i) many["events"].push_back({{"time", i + 1}});
   EXPECT_THAT(complaint(many.dump()), HasSubstr("more than 10000"));
@@ -110,6 +117,7 @@ TEST(FormatSignature, ReadsBackToTheLastBit) {
       event.centroid = event.duration / 3;
       event.amplitude = time > 0 ? draw / 7e8 : 1;
       event.weight = draw % 5 / 4.0;
+      if (time > 0 && draw % 4 == 0) event.alternatives = {{time + 0.004, draw / 7e8}};
       time += event.duration + 0.01 + draw / 1e11;
       signature.events.push_back(event);
     }
@@ -124,6 +132,9 @@ TEST(FormatSignature, ReadsBackToTheLastBit) {
       RC_ASSERT(back->events[i].amplitude == signature.events[i].amplitude);
       RC_ASSERT(back->events[i].centroid == signature.events[i].centroid);
       RC_ASSERT(back->events[i].weight == signature.events[i].weight);
+      const auto &before = signature.events[i].alternatives, &now = back->events[i].alternatives;
+      RC_ASSERT(now.size() == before.size());
+      RC_ASSERT(now.empty() || (now[0].time == before[0].time && now[0].cost == before[0].cost));
     }
   }));
 }
