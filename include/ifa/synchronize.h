@@ -82,7 +82,7 @@ struct Synchronization {
   std::vector<Motion> takes;          ///< at least one
   bool interrupted = false;           ///< asked to stop before all takes, or their films, were done
   std::vector<std::string> warnings;  ///< what the user should know of the files; mostly empty
-  std::vector<ObjectRank> ranking;    ///< of the objects tried, best first; of one alone empty
+  std::vector<ObjectRank> ranking = {};  ///< of the objects tried, best first; of one alone empty
 };
 
 /// Files of one motion; motion.json is always among them.

@@ -16,14 +16,14 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// Of a die in the evaluation set: long gaps that slowly shorten, 11 of them.
-std::filesystem::path dieSound() {
-  return std::filesystem::path(IFA_SOURCE_DIR) / "tests/evaluation/d6/d6-01.signature.json";
+/// Of an eraser in the evaluation set: four contacts.
+std::filesystem::path eraserSound() {
+  return std::filesystem::path(IFA_SOURCE_DIR) / "tests/evaluation/Eraser/Eraser-02.signature.json";
 }
 
 SynchronizeSettings settingsFor(const std::string& objects) {
   SynchronizeSettings settings;
-  settings.sound = dieSound();
+  settings.sound = eraserSound();
   settings.object = objects;
   settings.planner = "shoot";
   return settings;
@@ -42,15 +42,15 @@ TEST(CandidateObjects, AreTheLibraryOrAList) {
 }
 
 TEST(ChooseObject, PrefersWhatMadeTheSound) {
-  const auto ranking = chooseObject(settingsFor(""), {"Eraser", "d6"}, {});
+  const auto ranking = chooseObject(settingsFor(""), {"d6", "Eraser"}, {});
   ASSERT_TRUE(ranking.has_value()) << ranking.error().text();
   ASSERT_EQ(ranking->size(), 2U);
-  EXPECT_EQ(ranking->front().object, "d6");
+  EXPECT_EQ(ranking->front().object, "Eraser");
   EXPECT_TRUE(ranking->front().solved);
   EXPECT_EQ(ranking->front().behind, 0);
   EXPECT_FALSE(ranking->back().reason.empty());
   EXPECT_GE(ranking->front().score, ranking->back().score);
-  EXPECT_THAT(asGoodAsBest(*ranking), ElementsAre("d6"));
+  EXPECT_THAT(asGoodAsBest(*ranking), ElementsAre("Eraser"));
 }
 
 TEST(ChooseObject, IsInDoubtBetweenEquals) {
@@ -78,9 +78,9 @@ TEST(ChooseObject, CanBeInterrupted) {
 }
 
 TEST(ChooseObject, IsPartOfSynchronising) {
-  const auto result = synchronize(settingsFor("Eraser,d6"));
+  const auto result = synchronize(settingsFor("d6,Eraser"));
   ASSERT_TRUE(result.has_value()) << result.error().text();
-  EXPECT_EQ(result->takes.front().object.name, "d6");
+  EXPECT_EQ(result->takes.front().object.name, "Eraser");
   ASSERT_EQ(result->ranking.size(), 2U);
   EXPECT_EQ(result->ranking.front().score, result->takes.front().score);
 }
