@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "ifa/contact_signature.h"
 #include "ifa/result.h"
 
 namespace ifa {
@@ -28,6 +29,7 @@ struct Label {
   /// the amplitude, as the first one's becomes 1.
   std::optional<double> amplitude, centroid;
   double weight = 1;
+  std::vector<AlternativeStart> alternatives;  ///< in the sound file's time
 
   [[nodiscard]] bool isPoint() const { return end <= start; }
 };

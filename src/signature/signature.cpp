@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "sound/envelope.h"
@@ -62,8 +63,16 @@ bool tellTheirAmplitudes(const std::vector<Label>& labels) {
                      [](const Label& label) { return label.amplitude.has_value(); });
 }
 
-/// The largest says how loud both are together, and that they must be met.
+/// Contacts that are heard more surely must be met.
+constexpr double kSure = 0.9;
+/// Log units for leaving out a mark of weight 1; to begin an event without it costs as much
+/// (ShootingPlannerSettings::dropPenalty).
+constexpr double kDropPrice = 6;
+
+/// The largest says how loud both are together, and that they must be met. If the first mark is a
+/// false one, the event begins with the second.
 void join(Label& label, const Label& next) {
+  if (label.weight < 1) label.alternatives.push_back({next.start, kDropPrice * label.weight});
   label.end = std::max(label.end, next.end);
   if (next.amplitude) {
     label.amplitude = std::max(label.amplitude.value_or(0), *next.amplitude);
@@ -131,6 +140,8 @@ Result<ContactSignature> signatureFromLabels(const Sound& sound, const std::vect
     if (told) event.amplitude = *merged[i].amplitude;
     if (merged[i].centroid) event.centroid = std::min(*merged[i].centroid, event.duration);
     event.weight = merged[i].weight;
+    if (i > 0) event.alternatives = merged[i].alternatives;
+    for (AlternativeStart& other : event.alternatives) other.time -= signature.firstContact;
     signature.events.push_back(event);
   }
   if (!normalise(signature)) {
@@ -183,6 +194,8 @@ std::vector<Label> labelsFromContacts(const std::vector<DetectedContact>& contac
     label.start = contact.start;
     label.end = std::max(contact.start, contact.end);
     label.text = fmt::format("c{}", labels.size() + 1);
+    // In hundredths: the last bits of a confidence depend on the machine.
+    if (contact.confidence < kSure) label.weight = std::round(100 * contact.confidence) / 100;
     labels.push_back(std::move(label));
   }
   if (!labels.empty()) labels.back().text += terminal ? " terminal" : " non-terminal";

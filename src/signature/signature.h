@@ -46,11 +46,13 @@ struct SignatureSettings {
 
 /// The merge filter of method.md 2 on labels: gaps under `mergeGap` closed, what is then shorter
 /// than it made a point. The start and the text of a merged label are its first's, but a text that
-/// ends in "terminal" stays with the last.
+/// ends in "terminal" stays with the last. Where the first is in doubt (weight under 1), the starts
+/// of the others become alternatives.
 /// @param labels  in order of time
 [[nodiscard]] std::vector<Label> mergeLabels(const std::vector<Label>& labels, double mergeGap);
 
 /// Detected contacts as labels "c1", "c2"... ; the last one says "terminal" or "non-terminal".
+/// Whose confidence is under 0.9 has it for a weight: a motion may leave that contact out.
 [[nodiscard]] std::vector<Label> labelsFromContacts(const std::vector<DetectedContact>& contacts,
                                                     bool terminal = true);
 

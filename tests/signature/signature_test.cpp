@@ -140,6 +140,28 @@ TEST(MergeLabels, KeepsWhatTheLastOneSaysOfTheEnd) {
   EXPECT_EQ(merged[0].text, "c2 terminal");
 }
 
+TEST(MergeLabels, AnEventMayBeginWithoutAMarkInDoubt) {
+  auto labels =
+      std::vector{label(0.2, 0.2, "c1"), label(0.5, 0.5, "c2"), label(0.506, 0.506, "c3")};
+  EXPECT_TRUE(mergeLabels(labels, 0.010)[1].alternatives.empty());
+  labels[1].weight = 0.5;
+  const auto merged = mergeLabels(labels, 0.010);
+  ASSERT_EQ(merged[1].alternatives.size(), 1U);
+  EXPECT_DOUBLE_EQ(merged[1].alternatives[0].time, 0.506);
+  EXPECT_DOUBLE_EQ(merged[1].alternatives[0].cost, 3);
+  EXPECT_EQ(merged[1].weight, 1);  // one of the two is sure
+}
+
+TEST(LabelsFromContacts, DoubtIsAWeight) {
+  std::vector<DetectedContact> contacts(2);
+  contacts[0].confidence = 0.95;
+  contacts[1].start = contacts[1].end = 0.3;
+  contacts[1].confidence = 0.7134;
+  const auto labels = labelsFromContacts(contacts);
+  EXPECT_EQ(labels[0].weight, 1);
+  EXPECT_EQ(labels[1].weight, 0.71);
+}
+
 TEST(MergeLabels, LeavesGapsOfAtLeastTheGiven) {
   EXPECT_TRUE(rc::check(
       "gaps at least delta t, lengths 0 or at least delta t, and a second time no change", [] {
