@@ -63,6 +63,7 @@ MovedLandings::MovedLandings(const ShootingProblem& problem, Plan plan)
     spread_ += point.squaredNorm();
   }
   for (std::size_t k = 0; k + 1 < plan_.contacts.size(); ++k) addFlight(k);
+  for (const PlannedContact& contact : plan_.contacts) losses_.push_back(lossOf(contact));
 }
 
 PlausibleRegion MovedLandings::regionOf(const PlannedContact& contact) const {
