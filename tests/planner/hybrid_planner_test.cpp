@@ -119,6 +119,7 @@ TEST_F(HybridPlanner, TransitionsAloneRetraceADrop) {
   settings.children = 0;
   settings.firstContacts = 1;
   settings.lateContacts = 0;
+  settings.silentBeam = 0;
   constexpr std::size_t kEvents = 3;
   int tried = 0, retraced = 0;
   RandomStream random(1, 1);
@@ -134,14 +135,13 @@ TEST_F(HybridPlanner, TransitionsAloneRetraceADrop) {
     const Plan plan = plans(asked, settings)[0];
     expectSoundTransitions(asked, plan);
     if (!plan.solved) continue;
-    EXPECT_GT(plan.score, 0.8);
     for (const PlannedContact& contact : plan.contacts) {
       EXPECT_EQ(contact.source.kind, SourceKind::kDatabase);
     }
     retraced += plan.score > 0.97;
   }
   EXPECT_GT(tried, 3);
-  EXPECT_GE(2 * retraced, tried);
+  EXPECT_GE(retraced, tried - 1);
 }
 
 TEST_F(HybridPlanner, EventsAreTheirOwnImagesOnlyWhereSymmetryIsOff) {

@@ -15,7 +15,16 @@ namespace {
 using Eigen::Vector3d;
 using test::clicks;
 
-/// Five clicks that a die makes without effort, and the best motion for them.
+/// How many landings of a plan can be moved.
+std::size_t movable(const ShootingProblem& problem, const Plan& plan) {
+  const MovedLandings landings(problem, plan);
+  std::size_t count = 0;
+  for (const MovedLanding& landing : landings.proposals()) count += landings.moved(landing) ? 1 : 0;
+  return count;
+}
+
+/// Five clicks that a die makes without effort, and a motion for them that has some energy to
+/// spare.
 class MovedLandingsTest : public testing::Test {
  protected:
   MovedLandingsTest() : request_(test::requestFor(test::die())), settings_(test::smallSearch()) {
@@ -25,8 +34,14 @@ class MovedLandingsTest : public testing::Test {
                                  {0.66, 0, 0.5, 0, 1},
                                  {0.78, 0, 0.4, 0, 1}},
                                 false);
-    auto plans = ShootingPlanner(settings_).plan(request_, {});
-    if (plans) plan_ = plans->front();
+    const ShootingProblem problem(request_, settings_);
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+      request_.settings.seed = seed;
+      auto plans = ShootingPlanner(settings_).plan(request_, {});
+      if (!plans || !plans->front().solved) continue;
+      plan_ = plans->front();
+      if (movable(problem, plan_) > 3) return;
+    }
   }
   void SetUp() override { ASSERT_TRUE(plan_.solved) << plan_.failure; }
 
