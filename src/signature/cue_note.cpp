@@ -38,4 +38,9 @@ std::uint64_t samplesAt(double seconds, double rate) {
   return static_cast<std::uint64_t>(std::nearbyint(seconds * rate));
 }
 
+bool isAtSample(double seconds, std::uint64_t sample, double rate) {
+  constexpr double kRounding = 1e-9;  // s
+  return std::abs(seconds * rate - static_cast<double>(sample)) <= 0.5 + kRounding * rate;
+}
+
 }  // namespace ifa

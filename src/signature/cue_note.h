@@ -20,5 +20,8 @@ struct CueNote {
 
 /// The sample nearest to a time. @param seconds  0 to 1e9
 [[nodiscard]] std::uint64_t samplesAt(double seconds, double rate);
+/// Whether that is what samplesAt gave for a time of which `seconds` are the nine decimals of a
+/// note: halfway between two samples, rounding may have gone the other way.
+[[nodiscard]] bool isAtSample(double seconds, std::uint64_t sample, double rate);
 
 }  // namespace ifa

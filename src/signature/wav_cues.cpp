@@ -101,8 +101,8 @@ Label labelOf(const Cue& cue, const Notes& notes, double rate) {
   label.end = static_cast<double>(cue.sample + notes.length) / rate;
   if (!exact) return label;
   // Somebody who moves a point in an editor leaves our note as it was.
-  if (samplesAt(exact->start, rate) == cue.sample) label.start = exact->start;
-  const bool sameLength = samplesAt(exact->duration, rate) == notes.length;
+  if (isAtSample(exact->start, cue.sample, rate)) label.start = exact->start;
+  const bool sameLength = isAtSample(exact->duration, notes.length, rate);
   label.end = label.start + (sameLength ? exact->duration : label.end - label.start);
   return label;
 }

@@ -76,6 +76,28 @@ INSTANTIATE_TEST_SUITE_P(Formats, ReadsBack,
                                          std::pair("a.wav", 44100), std::pair("a.csv", 8000),
                                          std::pair("a.tsv", 8000), std::pair("a.json", 8000)));
 
+/// Where a sample more or less is a matter of the last digits.
+TEST(ReadMarks, CuePointsHalfwayBetweenSamplesKeepTheirTimes) {
+  const test::TemporaryFolder folder;
+  const Sound sound = noise(44100);
+  ASSERT_TRUE(writeWav(folder / "in.wav", sound));
+  std::vector<Label> labels;
+  for (const double off : {-4e-10, -1e-12, 0.0, 1e-12, 4e-10}) {
+    Label label;
+    label.start = 1 + static_cast<double>(labels.size()) + 20.5 / 44100 + off;
+    label.end = label.start + 900.5 / 44100 - 2 * off;
+    labels.push_back(label);
+  }
+  ASSERT_TRUE(writeMarks(folder / "a.wav", folder / "in.wav", sound, labels));
+  const auto marks = readMarks(folder / "a.wav");
+  ASSERT_TRUE(marks) << marks.error().text();
+  ASSERT_EQ(marks->size(), labels.size());
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    EXPECT_NEAR((*marks)[i].start, labels[i].start, 1e-9) << i;
+    EXPECT_NEAR((*marks)[i].end, labels[i].end, 2e-9) << i;
+  }
+}
+
 TEST(ReadMarks, TablesAndSignaturesKeepAmplitudesAndCentroids) {
   const test::TemporaryFolder folder;
   const Sound sound = noise(8000);
