@@ -74,8 +74,8 @@ check 'd6 and clicks' 1280 720 240 1 6 d6-01
 if compare 'd6 and clicks' 1280 720 240 1 6 800 >"$work/log" 2>&1; then
   fail 'a sound that comes a frame early is not noticed'
 fi
-clicks d20 d20-07
-check 'd20 and clicks' 1280 720 240 1 9 d20-07
+clicks d20 d20-01
+check 'd20 and clicks' 1280 720 240 1 11 d20-01
 clicks Eraser Eraser-04
 check 'eraser and clicks' 960 540 240 1 4 Eraser-04
 roll=/usr/share/gnubg/sounds/roll.wav
@@ -86,7 +86,7 @@ fi
 sound=${IFA_RECORDINGS:-}/single/d6/d6_metal_wood_c
 if [ -f "$sound.wav" ]; then
   sync recording d6 "$sound.wav" "$sound.txt"
-  check 'd6 and d6_metal_wood_c' 960 540 240 1 11 recording
+  check 'd6 and d6_metal_wood_c' 960 540 240 1 9 recording
 fi
 
 film follow 320 180 60 "$work/d6-01" --camera follow
