@@ -14,6 +14,8 @@
 #include <csignal>
 #include <string_view>
 
+#include "base/write_all.h"
+
 namespace ifa {
 namespace {
 
@@ -34,16 +36,6 @@ void becomeChild(double seconds) {
   ::setitimer(ITIMER_PROF, &left, nullptr);
   const int nothing = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
   if (nothing >= 0) ::dup2(nothing, STDERR_FILENO);
-}
-
-bool writeAll(int file, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(file, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return false;
-    bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return true;
 }
 
 [[noreturn]] void work(const std::function<std::string()>& what, int file, double seconds) {

@@ -10,6 +10,8 @@
 #include <fstream>
 #include <system_error>
 
+#include "base/write_all.h"
+
 namespace ifa {
 
 Result<std::string> readFile(const std::filesystem::path& path, std::size_t maxBytes) {
@@ -32,8 +34,6 @@ Result<std::string> readFile(const std::filesystem::path& path, std::size_t maxB
   return bytes;
 }
 
-namespace {
-
 bool writeAll(int file, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(file, bytes.data(), bytes.size());
@@ -43,8 +43,6 @@ bool writeAll(int file, std::string_view bytes) {
   }
   return true;
 }
-
-}  // namespace
 
 Result<void> writeFileAtomically(const std::filesystem::path& path, std::string_view bytes) {
   std::string temporary = path.string() + ".XXXXXX";
