@@ -90,14 +90,20 @@ void showTake(Console& console, const Motion& motion, const fs::path& folder) {
 // Which of several objects explains the sound, and how sure that is.
 void showRanking(Console& console, const std::vector<ObjectRank>& ranking) {
   if (ranking.empty()) return;
+  std::string others;
   for (const ObjectRank& rank : ranking) {
-    console.result(rank.solved ? fmt::format("{}: {}; behind the best by {:.1f}", rank.object,
-                                             rank.reason, rank.behind)
-                               : fmt::format("{}: no: {}", rank.object, rank.reason));
+    const std::string likely = fmt::format("{} {:.0f} %", rank.object, 100 * rank.probability);
+    if (!rank.planned && rank.probability < 0.005) continue;
+    if (rank.planned) {
+      console.result(fmt::format("{}: {}{}", likely, rank.solved ? "" : "no: ", rank.reason));
+    } else {
+      others += (others.empty() ? "" : ", ") + likely;
+    }
   }
+  if (!others.empty()) console.result("less likely, not planned: " + others);
   const auto good = asGoodAsBest(ranking);
   if (good.size() > 1) {
-    console.result(fmt::format("in doubt: {} explain the sound about equally well; taking {}",
+    console.result(fmt::format("in doubt: {} may have made this sound; taking {}",
                                fmt::join(good, ", "), good.front()));
   }
 }

@@ -69,10 +69,11 @@ struct SynchronizeSettings {
 /// How well one object explains a sound, where several were tried.
 struct ObjectRank {
   std::string object;
+  bool planned = false;  ///< whether a motion was looked for: not where others are likelier by far
   bool solved = false;
-  double score = 0;    ///< of its best motion, eq. 12; 0 where none is acceptable
-  double behind = 0;   ///< log units of affinity behind the best one, all contacts together
-  std::string reason;  ///< one line about its motion, or why there is none
+  double score = 0;        ///< of its best motion, eq. 12; 0 where none is acceptable
+  double probability = 0;  ///< by the rhythm, among the objects tried
+  std::string reason;      ///< one line about its motion, or why there is none
 };
 
 /// The motions found for one sound, best first; where none is acceptable, the best partial one,

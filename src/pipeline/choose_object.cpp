@@ -1,49 +1,196 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/choose_object.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 
-#include "base/portable_math.h"
+#include "base/paths.h"
 #include "body/object_file.h"
 #include "pipeline/batch.h"
+#include "pipeline/check_settings.h"
+#include "pipeline/chosen_body.h"
+#include "pipeline/hear.h"
+#include "pipeline/learned.h"
 #include "pipeline/synchronize_with.h"
 
 namespace ifa {
 
 namespace {
 
-/// Twice as likely is no reason to prefer one object to another, seven times is: log units.
-constexpr double kDoubt = 2;
-/// Factors of a contact in eq. 12.
-constexpr double kFactors = 6;
+/// Features of a rhythm are not as independent, nor drops as like real ones, as a density has it:
+/// to this power its ratios are honest ones (docs/choosing.md).
+constexpr double kTrust = 0.3;
+/// So many times less likely than the best is not in doubt any more, ...
+constexpr double kDoubt = 3;
+/// ... and is planned only where nothing that is likelier has a motion.
+constexpr double kUnlikely = 30;
+constexpr std::size_t kPlanned = 5;  ///< at most, beside those
 
-ObjectRank rankOf(const std::string& object, const Motion& motion) {
-  ObjectRank rank{object, motion.success, 0, 0, motion.failure};
-  if (!motion.success) return rank;
-  rank.score = motion.score;
-  rank.reason = describe(motion);
-  return rank;
-}
+/// One of the objects, before anything is planned.
+struct Candidate {
+  std::string object;
+  double log = 0;  ///< of the likelihood of the rhythm
+  double probability = 0;
+};
 
-/// Objects may merge contacts at other gaps, so they may not have the same number of them: the
-/// largest counts for all.
-void compare(ObjectRanking& ranking, std::size_t contacts) {
-  std::stable_sort(ranking.begin(), ranking.end(),
-                   [](const ObjectRank& a, const ObjectRank& b) { return a.score > b.score; });
-  const double best = ranking.front().score;
-  for (ObjectRank& rank : ranking) {
-    if (rank.score <= 0) continue;
-    rank.behind = kFactors * static_cast<double>(contacts) * portableLog(best / rank.score);
+/// Objects may merge contacts at other gaps; the sound is heard once for each gap.
+class Listener {
+ public:
+  explicit Listener(const SynchronizeSettings& settings) : settings_(settings) {}
+
+  Result<const ContactSignature*> signature(double mergeGap) {
+    const auto known = heard_.find(mergeGap);
+    if (known != heard_.end()) return &known->second;
+    auto heard = hear(settings_, mergeGap);
+    if (!heard) return tl::unexpected(heard.error());
+    return &heard_.emplace(mergeGap, std::move(heard->signature)).first->second;
   }
+
+ private:
+  const SynchronizeSettings& settings_;
+  std::map<double, ContactSignature> heard_;
+};
+
+/// How likely `object` is to make the sound. A single contact tells nothing.
+Result<double> likelihoodOf(const SynchronizeSettings& settings, Listener& listener,
+                            const Progress& progress) {
+  auto chosen = loadChosenBody(settings);
+  if (!chosen) return tl::unexpected(chosen.error());
+  const auto signature = listener.signature(chosen->body.definition.mergeGap);
+  if (!signature) return tl::unexpected(signature.error());
+  if ((*signature)->events.size() < 2) return 0;
+  SurfaceProperties surface = chosen->body.definition.surfaces.at(chosen->surface);
+  if (surface.referenceImpulse <= 0) {
+    surface.referenceImpulse =
+        learnObject(chosen->body, surface, cacheFolder(), progress).referenceImpulse;
+  }
+  return learnRhythm(chosen->body, surface, cacheFolder(), progress).log(**signature);
 }
+
+/// Likeliest first.
+void weigh(std::vector<Candidate>& candidates) {
+  std::vector<double> logs;
+  for (const Candidate& one : candidates) logs.push_back(one.log);
+  const std::vector<double> probabilities = rhythmProbabilities(logs);
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    candidates[i].probability = probabilities[i];
+  }
+  std::stable_sort(
+      candidates.begin(), candidates.end(),
+      [](const Candidate& a, const Candidate& b) { return a.probability > b.probability; });
+}
+
+SynchronizeSettings settingsWith(const SynchronizeSettings& settings, const std::string& object) {
+  SynchronizeSettings one = settings;
+  one.object = object;
+  one.takes = 1;
+  return one;
+}
+
+class Choice {
+ public:
+  Choice(const SynchronizeSettings& settings, const Progress& progress)
+      : settings_(settings), progress_(progress) {
+    silent_.stop = progress.stop;
+  }
+
+  Result<ObjectRanking> rank(const std::vector<std::string>& objects) {
+    auto candidates = weighed(objects);
+    if (!candidates) return tl::unexpected(candidates.error());
+    bool solved = false;
+    for (std::size_t i = 0; i < candidates->size(); ++i) {
+      const Candidate& one = (*candidates)[i];
+      if (solved &&
+          (i >= kPlanned || kUnlikely * one.probability < candidates->front().probability)) {
+        ranking_.push_back({one.object, false, false, 0, one.probability, "less likely"});
+        continue;
+      }
+      progress_("objects", 0.5 + 0.5 * static_cast<double>(std::min(i, kPlanned)) / kPlanned);
+      if (auto good = plan(one); !good) return tl::unexpected(good.error());
+      solved = solved || ranking_.back().solved;
+    }
+    std::stable_partition(ranking_.begin(), ranking_.end(),
+                          [](const ObjectRank& one) { return one.solved; });
+    ranking_.insert(ranking_.end(), aside_.begin(), aside_.end());
+    return ranking_;
+  }
+
+ private:
+  Result<std::vector<Candidate>> weighed(const std::vector<std::string>& objects) {
+    std::vector<Candidate> candidates;
+    Listener listener(settings_);
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+      if (progress_.stopRequested()) {
+        return tl::unexpected<Error>({ErrorCode::kInterrupted, "interrupted", {}, {}});
+      }
+      progress_("objects", 0.5 * static_cast<double>(i) / static_cast<double>(objects.size()));
+      const auto log = likelihoodOf(settingsWith(settings_, objects[i]), listener, silent_);
+      if (!log && !lacksSurface(objects[i])) return tl::unexpected(log.error());
+      if (log) {
+        candidates.push_back({objects[i], *log, 0});
+      } else {
+        aside_.push_back({objects[i], false, false, 0, 0, log.error().text()});
+      }
+    }
+    if (candidates.empty()) return badInput("no object has this surface", settings_.surface);
+    weigh(candidates);
+    return candidates;
+  }
+
+  /// Whether that is all that is wrong with it.
+  [[nodiscard]] bool lacksSurface(const std::string& object) const {
+    SynchronizeSettings any = settingsWith(settings_, object);
+    any.surface.clear();
+    return !settings_.surface.empty() && loadChosenBody(any) &&
+           !loadChosenBody(settingsWith(settings_, object));
+  }
+
+  Result<void> plan(const Candidate& one) {
+    const SynchronizeSettings settings = settingsWith(settings_, one.object);
+    GraphShelf shelf(settings.graph, settings.energyGain);
+    const auto found = synchronizeWith(settings, shelf, silent_);
+    if (!found) return tl::unexpected(found.error());
+    const Motion& motion = found->takes.front();
+    ObjectRank rank{one.object, true, motion.success, 0, one.probability, motion.failure};
+    if (motion.success) {
+      rank.score = motion.score;
+      rank.reason = describe(motion);
+    }
+    ranking_.push_back(std::move(rank));
+    return {};
+  }
+
+  const SynchronizeSettings& settings_;
+  const Progress& progress_;
+  Progress silent_;
+  ObjectRanking ranking_, aside_;
+};
 
 }  // namespace
+
+std::vector<double> rhythmProbabilities(const std::vector<double>& logs) {
+  const double best = *std::max_element(logs.begin(), logs.end());
+  std::vector<double> all;
+  double sum = 0;
+  for (const double log : logs) {
+    // Where none is possible all are the same.
+    all.push_back(log == best ? 1 : std::exp(kTrust * (log - best)));
+    sum += all.back();
+  }
+  for (double& one : all) one /= sum;
+  return all;
+}
 
 std::vector<std::string> asGoodAsBest(const ObjectRanking& ranking) {
   std::vector<std::string> names;
   for (const ObjectRank& rank : ranking) {
-    if (rank.solved && rank.behind < kDoubt) names.push_back(rank.object);
+    if (rank.solved && kDoubt * rank.probability > ranking.front().probability) {
+      names.push_back(rank.object);
+    }
   }
   return names;
 }
@@ -64,24 +211,9 @@ Result<std::vector<std::string>> candidateObjects(const std::string& object) {
 Result<ObjectRanking> chooseObject(const SynchronizeSettings& settings,
                                    const std::vector<std::string>& objects,
                                    const Progress& progress) {
-  ObjectRanking ranking;
-  std::size_t contacts = 0;
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    progress("objects", static_cast<double>(i) / static_cast<double>(objects.size()));
-    SynchronizeSettings one = settings;
-    one.object = objects[i];
-    one.takes = 1;
-    Progress silent;
-    silent.stop = progress.stop;
-    GraphShelf shelf(one.graph, one.energyGain);
-    const auto found = synchronizeWith(one, shelf, silent);
-    if (!found) return tl::unexpected(found.error());
-    contacts = std::max(contacts, found->signature.events.size());
-    ranking.push_back(rankOf(objects[i], found->takes.front()));
-  }
-  if (ranking.empty()) return badInput("names no object", settings.object);
-  compare(ranking, contacts);
-  return ranking;
+  if (auto good = checkSettings(settings); !good) return tl::unexpected(good.error());
+  if (objects.empty()) return badInput("names no object", settings.object);
+  return Choice(settings, progress).rank(objects);
 }
 
 }  // namespace ifa

@@ -9,22 +9,29 @@
 
 namespace ifa {
 
-/// Best first; those without a motion last.
+/// Likeliest first of those with a motion, then those without.
 using ObjectRanking = std::vector<ObjectRank>;
 
 /// The objects that "auto" (the library), or a list with commas, names; empty for one object.
 /// Errors: kBadInput when the library cannot be read.
 [[nodiscard]] Result<std::vector<std::string>> candidateObjects(const std::string& object);
 
-/// Plans one motion with each of `objects` and ranks them.
+/// How likely each of several objects is to have made a rhythm, from the logarithms of its density
+/// with each (RhythmLikelihood); they sum to 1.
+/// @param logs  at least one
+[[nodiscard]] std::vector<double> rhythmProbabilities(const std::vector<double>& logs);
+
+/// Weighs `objects` by the rhythm, plans a motion with each of the likeliest, and ranks them by
+/// likelihood; with less likely ones too until one has a motion. Objects without the surface that
+/// the settings name come last.
 /// @param settings  as for synchronize(), but for the object
 /// Errors: kBadInput and kUsage as of synchronize(), of the first object; kInterrupted.
 [[nodiscard]] Result<ObjectRanking> chooseObject(const SynchronizeSettings& settings,
                                                  const std::vector<std::string>& objects,
                                                  const Progress& progress);
 
-/// Those that explain the sound about as well as the best does: who only hears cannot tell them
-/// apart. Empty where none has a motion.
+/// Those that may as well have made the sound as the best: who hears its rhythm only cannot tell
+/// them apart. Empty where none has a motion.
 [[nodiscard]] std::vector<std::string> asGoodAsBest(const ObjectRanking& ranking);
 
 }  // namespace ifa

@@ -24,6 +24,7 @@ using Json = nlohmann::json;
 constexpr std::size_t kMostBytes = 1 << 16;
 constexpr std::size_t kImpulseDrops = 500;
 constexpr int kRestitutionDrops = 1000;
+constexpr int kRhythmDrops = 1000;
 
 /// Everything that what is learnt depends on.
 std::uint64_t keyOf(const Body& body, const SurfaceProperties& surface) {
@@ -71,6 +72,13 @@ RestitutionOutlook restitutionFrom(const Json& json) {
        json.at("spread")});
 }
 
+RhythmLikelihood rhythmFrom(const Json& json) {
+  return RhythmLikelihood(
+      {json.at("mean").get<std::array<double, RhythmLikelihood::kFeatures>>(),
+       json.at("whitening").get<std::array<double, RhythmLikelihood::kEntries>>(),
+       json.at("heard")});
+}
+
 Json jsonOf(const Learned& learned) {
   const EnergyOutlook::Coefficients outlook = learned.outlook.coefficients();
   return {{"reference_impulse", learned.referenceImpulse},
@@ -83,6 +91,11 @@ Json jsonOf(const RestitutionOutlook& outlook) {
   return {{"weights", outlook.coefficients().weights}, {"spread", outlook.coefficients().spread}};
 }
 
+Json jsonOf(const RhythmLikelihood& rhythm) {
+  const RhythmLikelihood::Coefficients all = rhythm.coefficients();
+  return {{"mean", all.mean}, {"whitening", all.whitening}, {"heard", all.heard}};
+}
+
 void write(const fs::path& file, std::uint64_t key, Json json) {
   json["key"] = key;
   std::error_code code;
@@ -91,44 +104,55 @@ void write(const fs::path& file, std::uint64_t key, Json json) {
   (void)writeFileAtomically(file, json.dump(1) + "\n");
 }
 
-}  // namespace
-
-Learned learnObject(const Body& body, const SurfaceProperties& surface, const fs::path& cache,
-                    const Progress& progress) {
+/// From the cache, as `take` has it from the file, or else by `make`, and then into the cache.
+template <class Take, class Make>
+auto learnOnce(const char* what, const Body& body, const SurfaceProperties& surface,
+               const fs::path& cache, const Progress& progress, const Take& take, const Make& make)
+    -> decltype(make()) {
   const std::uint64_t key = keyOf(body, surface);
-  const fs::path file = cache / fmt::format("object-{:016x}.json", key);
+  const fs::path file = cache / fmt::format("{}-{:016x}.json", what, key);
   if (!cache.empty()) {
-    if (const auto known = read(file, key, learnedFrom)) return *known;
+    if (const auto known = read(file, key, take)) return *known;
   }
   progress("learn", 0);
-  SurfaceProperties heard = surface;
-  if (heard.referenceImpulse <= 0) {
-    CalibrationSettings settings;
-    settings.simulations = kImpulseDrops;
-    heard.referenceImpulse = measureSurface(body, heard, settings).referenceImpulse;
-  }
-  const BodyModel model(body, heard);
-  const Learned learned{heard.referenceImpulse,
-                        EnergyOutlook::learn(body, model, audibleCut(body, heard),
-                                             ShootingPlannerSettings().outlookDrops, progress)};
+  const auto learned = make();
   if (!cache.empty() && !progress.stopRequested()) write(file, key, jsonOf(learned));
   progress("learn", 1);
   return learned;
 }
 
+}  // namespace
+
+Learned learnObject(const Body& body, const SurfaceProperties& surface, const fs::path& cache,
+                    const Progress& progress) {
+  return learnOnce("object", body, surface, cache, progress, learnedFrom, [&] {
+    SurfaceProperties heard = surface;
+    if (heard.referenceImpulse <= 0) {
+      CalibrationSettings settings;
+      settings.simulations = kImpulseDrops;
+      heard.referenceImpulse = measureSurface(body, heard, settings).referenceImpulse;
+    }
+    const BodyModel model(body, heard);
+    return Learned{heard.referenceImpulse,
+                   EnergyOutlook::learn(body, model, audibleCut(body, heard),
+                                        ShootingPlannerSettings().outlookDrops, progress)};
+  });
+}
+
 RestitutionOutlook learnRestitution(const Body& body, const SurfaceProperties& surface,
                                     const fs::path& cache, const Progress& progress) {
-  const std::uint64_t key = keyOf(body, surface);
-  const fs::path file = cache / fmt::format("restitution-{:016x}.json", key);
-  if (!cache.empty()) {
-    if (const auto known = read(file, key, restitutionFrom)) return *known;
-  }
-  progress("learn", 0);
-  const auto outlook = RestitutionOutlook::learn(body, surface, audibleCut(body, surface),
-                                                 kRestitutionDrops, progress);
-  if (!cache.empty() && !progress.stopRequested()) write(file, key, jsonOf(outlook));
-  progress("learn", 1);
-  return outlook;
+  return learnOnce("restitution", body, surface, cache, progress, restitutionFrom, [&] {
+    return RestitutionOutlook::learn(body, surface, audibleCut(body, surface), kRestitutionDrops,
+                                     progress);
+  });
+}
+
+RhythmLikelihood learnRhythm(const Body& body, const SurfaceProperties& surface,
+                             const fs::path& cache, const Progress& progress) {
+  return learnOnce("rhythm", body, surface, cache, progress, rhythmFrom, [&] {
+    return RhythmLikelihood::learn(body, surface, audibleCut(body, surface), kRhythmDrops,
+                                   progress);
+  });
 }
 
 }  // namespace ifa

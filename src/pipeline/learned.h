@@ -8,6 +8,7 @@
 #include "body/body.h"
 #include "planner/energy_outlook.h"
 #include "planner/restitution_outlook.h"
+#include "planner/rhythm_likelihood.h"
 
 namespace ifa {
 
@@ -29,5 +30,11 @@ struct Learned {
                                                   const SurfaceProperties& surface,
                                                   const std::filesystem::path& cache,
                                                   const Progress& progress);
+
+/// The same of how likely the body makes a rhythm.
+/// @param surface  with its J_ref
+[[nodiscard]] RhythmLikelihood learnRhythm(const Body& body, const SurfaceProperties& surface,
+                                           const std::filesystem::path& cache,
+                                           const Progress& progress);
 
 }  // namespace ifa

@@ -12,11 +12,11 @@
 #include "base/staged_folder.h"
 #include "base/stopwatch.h"
 #include "base/version.h"
-#include "body/object_file.h"
 #include "body/symmetry.h"
 #include "motion/build_motion.h"
 #include "pipeline/check_settings.h"
 #include "pipeline/choose_object.h"
+#include "pipeline/chosen_body.h"
 #include "pipeline/copy_object.h"
 #include "pipeline/fit.h"
 #include "pipeline/hear.h"
@@ -30,25 +30,6 @@ namespace ifa {
 namespace fs = std::filesystem;
 
 namespace {
-
-// The library that the settings name goes before the program's own.
-Result<Body> loadBody(const SynchronizeSettings& settings) {
-  const fs::path own = settings.objects / (settings.object + ".json");
-  std::error_code code;
-  if (!settings.objects.empty() && fs::is_regular_file(own, code)) return loadObject(own.string());
-  return loadObject(settings.object);
-}
-
-Result<std::string> chooseSurface(const SynchronizeSettings& settings,
-                                  const ObjectDefinition& object) {
-  const auto& name = settings.surface.empty() ? object.defaultSurface : settings.surface;
-  if (object.surfaces.count(name) > 0) return name;
-  std::string known;
-  for (const auto& [other, properties] : object.surfaces) {
-    known += (known.empty() ? "" : ", ") + other;
-  }
-  return badInput("has no surface \"" + name + "\"", object.name, "its surfaces: " + known);
-}
 
 // All that the search needs, and what the files are made of afterwards.
 struct Job {
@@ -66,17 +47,14 @@ Result<Job> prepare(const SynchronizeSettings& settings) {
   if (auto good = checkSettings(settings); !good) return tl::unexpected(good.error());
   auto planner = makePlanner(settings.planner);
   if (!planner) return tl::unexpected(planner.error());
-  auto body = loadBody(settings);
-  if (!body) return tl::unexpected(body.error());
-  changeRestitution(settings, body->definition);
-  auto surface = chooseSurface(settings, body->definition);
-  if (!surface) return tl::unexpected(surface.error());
-  auto heard = hear(settings, body->definition.mergeGap);
+  auto chosen = loadChosenBody(settings);
+  if (!chosen) return tl::unexpected(chosen.error());
+  auto heard = hear(settings, chosen->body.definition.mergeGap);
   if (!heard) return tl::unexpected(heard.error());
   Job job;
-  job.symmetry = findSymmetry(*body);
-  job.body = std::move(*body);
-  job.surface = std::move(*surface);
+  job.symmetry = findSymmetry(chosen->body);
+  job.body = std::move(chosen->body);
+  job.surface = std::move(chosen->surface);
   job.heard = std::move(*heard);
   job.planner = std::move(*planner);
   return job;

@@ -2,12 +2,12 @@
 // Which restitution a rhythm sounds like, learnt from drops of the body (docs/fitting.md).
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 
 #include "base/progress.h"
 #include "body/body.h"
 #include "ifa/contact_signature.h"
+#include "planner/rhythm_features.h"
 #include "sampler/event_recorder.h"
 
 namespace ifa {
@@ -16,8 +16,7 @@ namespace ifa {
 /// thread safe.
 class RestitutionOutlook {
  public:
-  static constexpr int kFeatures = 18;
-  using Features = Eigen::Matrix<double, kFeatures, 1>;
+  static constexpr int kFeatures = kRhythmFeatures;
 
   /// All that is learnt.
   struct Coefficients {
@@ -36,9 +35,6 @@ class RestitutionOutlook {
                                                 const RecorderSettings& recorder, int drops,
                                                 const Progress& progress = {});
 
-  /// What the regression looks at, of at least two events.
-  [[nodiscard]] static Features features(const ContactSignature& signature);
-
   /// The restitution that `signature` sounds like, not clamped to any range.
   /// @param signature  of at least two events: one tells nothing
   [[nodiscard]] double estimate(const ContactSignature& signature) const;
@@ -47,7 +43,7 @@ class RestitutionOutlook {
   [[nodiscard]] double spread() const { return spread_; }
 
  private:
-  Features weights_ = Features::Zero();
+  RhythmFeatures weights_ = RhythmFeatures::Zero();
   double spread_ = 1;
 };
 

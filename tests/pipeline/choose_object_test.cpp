@@ -4,9 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <filesystem>
+#include <limits>
 
+#include "base/file.h"
+#include "body/object_file.h"
 #include "support/temporary_folder.h"
 
 namespace ifa {
@@ -47,18 +51,28 @@ TEST(ChooseObject, PrefersWhatMadeTheSound) {
   ASSERT_EQ(ranking->size(), 2U);
   EXPECT_EQ(ranking->front().object, "Eraser");
   EXPECT_TRUE(ranking->front().solved);
-  EXPECT_EQ(ranking->front().behind, 0);
+  EXPECT_GT(ranking->front().probability, 0.9);
+  EXPECT_NEAR(ranking->front().probability + ranking->back().probability, 1, 1e-12);
   EXPECT_FALSE(ranking->back().reason.empty());
-  EXPECT_GE(ranking->front().score, ranking->back().score);
   EXPECT_THAT(asGoodAsBest(*ranking), ElementsAre("Eraser"));
 }
 
 TEST(ChooseObject, IsInDoubtBetweenEquals) {
-  const ObjectRanking ranking = {{"d6", true, 0.95, 0, ""},
-                                 {"d8", true, 0.94, 1.2, ""},
-                                 {"Nut", true, 0.9, 6, ""},
-                                 {"Eraser", false, 0, 0, "no"}};
+  const ObjectRanking ranking = {{"d6", true, true, 0.95, 0.5, ""},
+                                 {"d8", true, true, 0.94, 0.3, ""},
+                                 {"Nut", true, true, 0.9, 0.05, ""},
+                                 {"Eraser", true, false, 0, 0.15, "no"}};
   EXPECT_THAT(asGoodAsBest(ranking), ElementsAre("d6", "d8"));
+}
+
+TEST(RhythmProbabilities, SumToOneWhateverTheDensities) {
+  const double never = -std::numeric_limits<double>::infinity();
+  EXPECT_THAT(rhythmProbabilities({3, 3}), ElementsAre(0.5, 0.5));
+  EXPECT_THAT(rhythmProbabilities({-1e300, never}), ElementsAre(1, 0));
+  EXPECT_THAT(rhythmProbabilities({never, never}), ElementsAre(0.5, 0.5));
+  const auto two = rhythmProbabilities({-100, -110});
+  EXPECT_GT(two[0], 0.9);
+  EXPECT_NEAR(two[0] + two[1], 1, 1e-15);
 }
 
 TEST(ChooseObject, RefusesWhatIsNoObject) {
@@ -66,6 +80,43 @@ TEST(ChooseObject, RefusesWhatIsNoObject) {
   ASSERT_FALSE(ranking.has_value());
   EXPECT_THAT(ranking.error().text(), HasSubstr("d7"));
   EXPECT_FALSE(synchronize(settingsFor(",")).has_value());
+}
+
+TEST(ChooseObject, LeavesOutWhatIsUnlikelyByFar) {
+  const auto ranking =
+      chooseObject(settingsFor(""), {"d20", "d12", "d10", "d8", "d6", "d4", "Eraser"}, {});
+  ASSERT_TRUE(ranking.has_value()) << ranking.error().text();
+  ASSERT_EQ(ranking->size(), 7U);
+  EXPECT_EQ(ranking->front().object, "Eraser");
+  EXPECT_LE(std::count_if(ranking->begin(), ranking->end(),
+                          [](const ObjectRank& one) { return one.planned; }),
+            5);
+  double sum = 0;
+  for (const ObjectRank& one : *ranking) sum += one.probability;
+  EXPECT_NEAR(sum, 1, 1e-12);
+}
+
+TEST(ChooseObject, PutsAsideWhatLacksTheSurface) {
+  const test::TemporaryFolder folder;
+  SynchronizeSettings settings = settingsFor("");
+  settings.surface = "moon";
+  const auto none = chooseObject(settings, {"d6", "Eraser"}, {});
+  ASSERT_FALSE(none.has_value());
+  EXPECT_THAT(none.error().text(), HasSubstr("moon"));
+  std::string text = *readFile(objectsFolder() / "Eraser.json", 1 << 16);
+  const auto at = text.find("\"desk\"", text.find("\"surfaces\""));
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, 6, "\"moon\"");
+  text.replace(text.find("\"default_surface\": \"desk\""), 25, "\"default_surface\": \"moon\"");
+  test::writeText(folder / "there.json", text);
+  for (const char* name : {"Eraser.obj", "Eraser.mtl"}) {
+    std::filesystem::copy(objectsFolder() / name, folder / name);
+  }
+  const auto one = chooseObject(settings, {"d6", (folder / "there.json").string()}, {});
+  ASSERT_TRUE(one.has_value()) << one.error().text();
+  EXPECT_FALSE(one->back().planned);
+  EXPECT_THAT(one->back().reason, HasSubstr("no surface"));
+  EXPECT_EQ(one->front().probability, 1);
 }
 
 TEST(ChooseObject, CanBeInterrupted) {

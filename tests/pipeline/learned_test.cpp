@@ -97,6 +97,22 @@ TEST_F(LearnObject, KeepsWhatRestitutionsSoundLike) {
   EXPECT_EQ(learnSounds({}).weights, first.weights);
 }
 
+TEST_F(LearnObject, KeepsWhatRhythmsABodyMakes) {
+  const auto learnRhythms = [&](const fs::path& cache) {
+    return learnRhythm(die_, surface_, cache, Progress()).coefficients();
+  };
+  const auto first = learnRhythms(folder_.path()), second = learnRhythms(folder_.path());
+  EXPECT_EQ(first.mean, second.mean);
+  EXPECT_EQ(first.whitening, second.whitening);
+  auto json = nlohmann::json::parse(readFile(onlyFile(), 1 << 16).value());
+  json["heard"] = 0.625;
+  ASSERT_TRUE(writeFileAtomically(onlyFile(), json.dump()));
+  EXPECT_EQ(learnRhythms(folder_.path()).heard, 0.625);
+  json["whitening"].erase(0);  // damaged: learnt again
+  ASSERT_TRUE(writeFileAtomically(onlyFile(), json.dump()));
+  EXPECT_EQ(learnRhythms(folder_.path()).heard, first.heard);
+}
+
 TEST_F(LearnObject, DoesWithoutACacheThatCannotBeWritten) {
   test::writeText(folder_ / "file", "in the way");
   expectSame(learn(folder_ / "file"), learn({}));

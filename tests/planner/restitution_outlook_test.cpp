@@ -59,7 +59,7 @@ TEST(RestitutionOutlookTest, LooksAtAnyRhythmOfTwoOrMore) {
   for (const ContactSignature& signature :
        {clicks({{0, 0, 1, 0, 1}, {0.2, 0, 0, 0, 1}}, true),
         clicks({{0, 0.1, 1, 0, 1}, {0.1, 0, 1e-9, 0, 1}, {0.1 + 1e-9, 0, 9, 0, 1}}, false)}) {
-    EXPECT_TRUE(RestitutionOutlook::features(signature).allFinite());
+    EXPECT_TRUE(rhythmFeatures(signature).allFinite());
   }
 }
 
