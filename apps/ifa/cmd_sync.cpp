@@ -76,10 +76,15 @@ void showDoubtfulMarks(Console& console, const Motion& motion) {
   }
 }
 
-void showTake(Console& console, const Motion& motion, const fs::path& folder) {
+void showTake(Console& console, const Motion& motion, bool energyAsked, const fs::path& folder) {
   console.result(fmt::format("{} on {}{}: {}", motion.object.name, motion.object.surface,
                              fitOf(motion),
                              motion.success ? describe(motion) : "no acceptable motion"));
+  if (motion.success && motion.energyGain > 0 && !energyAsked) {
+    console.result(fmt::format(
+        "  nothing found that loses energy at every contact: one may add up to {:.0f} % of it",
+        100 * motion.energyGain));
+  }
   showDoubtfulMarks(console, motion);
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
@@ -117,7 +122,7 @@ int syncSound(const SyncOptions& options, CommandContext& context) {
   const auto& takes = result->takes;
   const auto wanted = static_cast<std::size_t>(options.settings.takes);
   for (std::size_t i = 0; i < takes.size(); ++i) {
-    showTake(context.console, takes[i],
+    showTake(context.console, takes[i], options.settings.energyGain > 0,
              wanted > 1 ? options.output / fmt::format("take-{}", i + 1) : options.output);
   }
   if (takes.size() < wanted) {

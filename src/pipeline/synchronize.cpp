@@ -31,6 +31,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// Share of its energy that a contact may add where no motion is found otherwise, and the work that
+/// such a motion is worth, where one plan costs 1.
+constexpr double kEasedGain = 0.1, kEasedEffort = 0.4;
+
 // All that the search needs, and what the files are made of afterwards.
 struct Job {
   Body body;
@@ -132,7 +136,8 @@ void auditTake(Motion& motion, const Body& body) {
 }
 
 // On the surface that was asked for, or where the fit goes best.
-Result<Fit> plan(const SynchronizeSettings& settings, const Job& job, const Progress& progress) {
+Result<Fit> planAsAsked(const SynchronizeSettings& settings, const Job& job,
+                        const Progress& progress) {
   const PlanRequest request = makeRequest(settings, job);
   if (settings.fit) {
     FitRequest wanted{job.planner.get(), request, job.body.definition.surfaces, job.surface,
@@ -145,6 +150,28 @@ Result<Fit> plan(const SynchronizeSettings& settings, const Job& job, const Prog
   auto plans = job.planner->plan(request, progress);
   if (!plans) return tl::unexpected(plans.error());
   return Fit{request, job.surface, request.surface.restitution, std::move(*plans)};
+}
+
+// No sound shall be without a motion for the sake of a little energy that nobody sees: where
+// nothing that loses energy at every contact is found, contacts may add some.
+Result<Fit> plan(const SynchronizeSettings& settings, const Job& job, const Progress& progress) {
+  auto found = planAsAsked(settings, job, progress);
+  if (!found || found->plans.front().solved || found->plans.front().timeLimitReached ||
+      progress.stopRequested() || settings.planner == "graph" || settings.energyGain > 0) {
+    return found;
+  }
+  Fit eased = *found;
+  eased.request.settings.energyGain = kEasedGain;
+  eased.request.settings.effort = kEasedEffort;
+  Progress again;
+  again.stop = progress.stop;
+  again.report = [&](std::string_view stage, double share) {
+    progress(stage == "search" ? "search on" : stage, share);
+  };
+  auto plans = job.planner->plan(eased.request, again);
+  if (!plans || !plans->front().solved) return found;
+  eased.plans = std::move(*plans);
+  return eased;
 }
 
 struct Search {

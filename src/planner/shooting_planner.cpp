@@ -40,7 +40,7 @@ class ShootingRun {
     const double budget = settings_.passes * request_.settings.effort;
     const int passes = std::max(1, static_cast<int>(std::lround(budget)));
     const double width = std::min(1.0, budget);
-    const double most = settings_.mostPieces * std::max(1.0, request_.settings.effort);
+    const double most = settings_.mostPieces * request_.settings.effort;
     for (int pass = 0; pass < passes && !work_.spent() && !stop(); ++pass) {
       if (static_cast<double>(pieces_) > most) break;
       if (!goesOn(pass, passes, work_.width(std::min(settings_.widest, width + 0.5 * pass)))) break;

@@ -39,7 +39,7 @@ struct ShootingPlannerSettings {
   double dropPenalty = 6;         ///< log units for an event of weight 1 that was dropped
   int passes = 10;                ///< searches with other seeds and wider beams, at most
   double widest = 2.5;            ///< no pass is wider than so many times the first
-  double mostPieces = 4e7;        ///< of motion simulated, after which no other pass begins
+  double mostPieces = 3e7;        ///< of motion simulated, after which no other pass begins
   double goodScore = 0.9;         ///< enough to stop after the first pass, ...
   double goodBend = 1.2;          ///< ... if no bend is over this
   /// Contacts before one that a pass did not get past, in which the next passes follow so many

@@ -68,6 +68,18 @@ TEST_F(Synchronize, RefusesSettingsThatMakeNoSense) {
   }
 }
 
+// A die that balances on an edge and then rocks for longer than it has energy for.
+TEST_F(Synchronize, SlowlyEasesTheEnergyRatherThanFindNothing) {
+  settings_.sound =
+      std::filesystem::path(IFA_SOURCE_DIR) / "tests/evaluation/d6/d6-05.signature.json";
+  settings_.object = "d6";
+  const auto result = synchronize(settings_);
+  ASSERT_TRUE(result) << result.error().text();
+  const Motion& motion = result->takes.front();
+  EXPECT_TRUE(motion.success) << motion.failure;  // its audit holds
+  EXPECT_EQ(motion.energyGain, 0.1);
+}
+
 TEST_F(Synchronize, FitsTheRestitution) {
   settings_.fit = true;
   settings_.restitutionScale = 0.7;
