@@ -11,6 +11,7 @@
 #include "command.h"
 #include "graph_options.h"
 #include "ifa/synchronize.h"
+#include "orient_option.h"
 #include "pipeline/batch.h"
 #include "pipeline/choose_object.h"
 #include "pipeline/output_files.h"
@@ -26,6 +27,7 @@ struct SyncOptions {
   OutputSettings files;
   std::string formats = filmsCanBeWritten() ? "json,glb,mp4" : "json,glb";
   fs::path output;
+  std::vector<std::string> orientations;
   bool noTerminal = false;
 };
 
@@ -168,6 +170,11 @@ int runSync(SyncOptions options, CommandContext& context) {
   const auto formats = parseFormats(options.formats);
   if (!formats) return context.fail(formats.error());
   options.files.formats = *formats;
+  for (const std::string& text : options.orientations) {
+    const auto wish = parseOrientation(text);
+    if (!wish) return context.fail(wish.error());
+    options.settings.orientations.push_back(*wish);
+  }
   std::error_code code;
   const bool isFolder = fs::is_directory(options.settings.sound, code);
   return isFolder ? syncFolder(options, context) : syncSound(options, context);
@@ -196,6 +203,9 @@ void addSearchOptions(CLI::App& command, SyncOptions& options) {
       ->check(CLI::Range(0.0, 10.0));
   command.add_flag("--no-terminal", options.noTerminal,
                    "the last contact does not bring the object to rest");
+  command.add_option("--orient", options.orientations,
+                     "CONTACT:FACE=up|down, as last:6=up; CONTACT a number from 1 or last, FACE of "
+                     "the object file or x,y,z of the mesh; a direction x,y,z for up; repeatable");
   addGraphOptions(command, settings.graph);
 }
 

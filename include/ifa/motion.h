@@ -92,6 +92,13 @@ struct BendSummary {
   double median = 0, max = 0, cap = 2;
 };
 
+/// A direction of the body and where it was asked to point at a contact, or at rest.
+struct MotionOrientation {
+  int contact = 0;  ///< index into the contacts; -1: where the body rests
+  Eigen::Vector3d body = Eigen::Vector3d::UnitZ();   ///< body frame, unit
+  Eigen::Vector3d world = Eigen::Vector3d::UnitZ();  ///< unit
+};
+
 /// The event database that was used, if any.
 struct DatabaseReference {
   std::int64_t simulations = 0, events = 0;
@@ -121,7 +128,8 @@ struct Motion {
   EventCut cut = EventCut::kAudible;  ///< what its contacts are, for who looks for them
   std::vector<MotionContact> contacts;
   std::vector<double> dropped;  ///< doubtful marks that no contact meets, s after the first contact
-  std::vector<std::array<double, 2>> silent;  ///< intervals of silent contact, s
+  std::vector<MotionOrientation> orientations;  ///< that were asked for
+  std::vector<std::array<double, 2>> silent;    ///< intervals of silent contact, s
   std::vector<MotionSample>
       trajectory;  ///< non-decreasing times; two samples share an impact's time
 };

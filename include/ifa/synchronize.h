@@ -2,6 +2,7 @@
 // The main job as a library: a sound and an object in, synchronised motions out.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -38,6 +39,14 @@ struct GraphOptions {
   bool symmetry = true;  ///< events also stand for their images (docs/symmetry.md)
 };
 
+/// That a direction of the body points some way at a contact (IFA section 6).
+struct OrientationWish {
+  int contact = 0;   ///< from 1, judged where it begins; 0: the last, judged where the body rests
+  std::string face;  ///< of the object file; empty: `body` tells the direction
+  Eigen::Vector3d body = Eigen::Vector3d::UnitZ();   ///< body frame: the mesh's axes
+  Eigen::Vector3d world = Eigen::Vector3d::UnitZ();  ///< z is up
+};
+
 /// What is to be synchronised, and how. The defaults are those of `ifa sync`.
 struct SynchronizeSettings {
   std::filesystem::path sound;  ///< sound file; or contacts alone: signature JSON, CSV, MIDI
@@ -59,9 +68,10 @@ struct SynchronizeSettings {
   GraphOptions graph;              ///< for "graph"; database and symmetry also for "hybrid"
   std::filesystem::path objects;   ///< folder of the library; empty: the program's own
   std::uint64_t seed = 1;
-  int takes = 1;                 ///< different motions wanted, 1 to kMaxTakes
-  double timeLimitSeconds = 0;   ///< cuts the search off; 0: never
-  double energyGain = 0;         ///< share of energy that a contact may add; 0 in nature
+  int takes = 1;                ///< different motions wanted, 1 to kMaxTakes
+  double timeLimitSeconds = 0;  ///< cuts the search off; 0: never
+  double energyGain = 0;        ///< share of energy that a contact may add; 0 in nature
+  std::vector<OrientationWish> orientations;  ///< docs/controls.md
   std::optional<bool> terminal;  ///< overrides what labels or signature say of the ending
   double preRollSeconds = 0.5;   ///< flight shown before the first contact
 };

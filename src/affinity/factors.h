@@ -22,6 +22,7 @@ struct AffinityParameters {
   double timeWarp = 100;                    ///< c_t, eq. 5
   double amplitude = 2.78;                  ///< c_a, eq. 6
   double duration = 7000;                   ///< c_Delta, s^-2, eq. 7 and 8
+  double orientationWish = 140;             ///< c_o, section 6: half at 4 degrees
   /// Decision: a contact that changes the velocity by less is taken to change it by this much, or
   /// the plausible region would vanish. m/s; for the spin, this over the body's radius.
   double smallestChange = 0.05;
@@ -59,6 +60,12 @@ class PlausibleRegion {
 
 /// Eq. 4. @param angle  between the orientations, rad. @param time  of the flight, s
 [[nodiscard]] double logOrientation(double angle, double time, const AffinityParameters& = {});
+
+/// f_o of section 6. @param angle  between where a direction of the body points and where it
+/// should, rad
+[[nodiscard]] inline double logOrientationWish(double angle, const AffinityParameters& set = {}) {
+  return -set.orientationWish * angle * angle;
+}
 
 /// Eq. 5. @param target, blended  times of the flight, s, > 0
 [[nodiscard]] double logTimeWarp(double target, double blended, const AffinityParameters& = {});

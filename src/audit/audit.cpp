@@ -31,6 +31,7 @@ AuditReport audit(const Motion& motion, const Body& body, const AuditSettings& s
   audit_detail::checkEnergy(evidence, report.checks);
   audit_detail::checkGround(evidence, report.checks);
   audit_detail::checkRest(evidence, report.checks);
+  audit_detail::checkOrientations(evidence, report.checks);
   audit_detail::checkBend(evidence, report.checks);
   const auto ugly = std::count_if(motion.contacts.begin(), motion.contacts.end(),
                                   [](const MotionContact& contact) { return contact.bend > 1; });

@@ -39,6 +39,9 @@ void checkGround(const Evidence& all, Checks& checks);
 /// "rest pose", "rest speed", "rest support"; nothing where the last event is not terminal.
 void checkRest(const Evidence& all, Checks& checks);
 
+/// "orientation as asked": the body's directions where they were asked for; nothing where none was.
+void checkOrientations(const Evidence& all, Checks& checks);
+
 /// "bend": the larger of the stated one and the one found from changes and trajectory; "bend
 /// understated": by how much the stated one is smaller.
 void checkBend(const Evidence& all, Checks& checks);

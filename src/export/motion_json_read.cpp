@@ -122,6 +122,23 @@ void readDropped(const JsonNode& node, Motion& motion) {
   }
 }
 
+constexpr double kLeastDirection = 1e-9;
+
+void readOrientations(const JsonNode& node, Motion& motion) {
+  motion.orientations.resize(node.count());
+  for (std::size_t i = 0; i < motion.orientations.size(); ++i) {
+    const JsonNode wish = node.item(i);
+    MotionOrientation& read = motion.orientations[i];
+    read = {wish.member("contact").integer<int>(), wish.member("body").vector(),
+            wish.member("world").vector()};
+    if (read.contact < -1 || read.contact >= static_cast<int>(motion.contacts.size())) {
+      wish.reject("is of a contact that is not there");
+    }
+    if (read.body.norm() < kLeastDirection) wish.member("body").reject("is no direction");
+    if (read.world.norm() < kLeastDirection) wish.member("world").reject("is no direction");
+  }
+}
+
 void readSilent(const JsonNode& node, Motion& motion) {
   motion.silent.resize(node.count());
   for (std::size_t i = 0; i < motion.silent.size(); ++i) {
@@ -189,6 +206,7 @@ Result<Motion> parseMotion(std::string_view json, const std::string& place) {
     readOutcome(root, motion);
     readContacts(root.member("contacts"), motion);
     if (root.has("dropped")) readDropped(root.member("dropped"), motion);
+    if (root.has("orientations")) readOrientations(root.member("orientations"), motion);
     readSilent(root.member("silent"), motion);
     readTrajectory(root.member("trajectory"), motion);
   }

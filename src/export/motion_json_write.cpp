@@ -168,6 +168,17 @@ Result<std::string> formatMotion(const Motion& motion) {
     out.raw(",\n ").key("dropped").array(motion.dropped.size(), 16, "  ",
                                          [&](std::size_t i) { out.value(motion.dropped[i]); });
   }
+  if (!motion.orientations.empty()) {
+    out.raw(",\n ")
+        .key("orientations")
+        .array(motion.orientations.size(), 1, "  ", [&](std::size_t i) {
+          const MotionOrientation& wish = motion.orientations[i];
+          out.raw("{")
+              .field("contact", std::int64_t{wish.contact}, ", ")
+              .field("body", wish.body, ", ");
+          out.field("world", wish.world, "}");
+        });
+  }
   out.raw(",\n ").key("silent").array(motion.silent.size(), 8, "  ",
                                       [&](std::size_t i) { out.value(motion.silent[i]); });
   out.raw(",\n ");

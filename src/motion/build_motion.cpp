@@ -70,9 +70,24 @@ class Builder {
       }
       ++next;
     }
+    orientations();
   }
 
  private:
+  void orientations() {
+    for (const PlannedOrientation& wish : request_.orientations) {
+      const auto met = std::find_if(
+          plan_.contacts.begin(), plan_.contacts.end(), [&](const PlannedContact& contact) {
+            return static_cast<std::size_t>(contact.target) == wish.target;
+          });
+      if (met == plan_.contacts.end()) continue;
+      const bool rests =
+          request_.signature.terminal && wish.target + 1 == request_.signature.events.size();
+      motion_.orientations.push_back({rests ? -1 : static_cast<int>(met - plan_.contacts.begin()),
+                                      request_.body->bodyFromPrincipal * wish.body, wish.world});
+    }
+  }
+
   /// Backward flight: forward with negated velocities (5.1), to an earlier contact or the
   /// pre-roll's start.
   void before(double preRoll) {

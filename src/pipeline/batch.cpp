@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "base/version.h"
+#include "body/object_file.h"
 #include "export/motion_json.h"
 #include "pipeline/choose_object.h"
 #include "pipeline/output_files.h"
@@ -90,6 +91,30 @@ bool sameRestitution(const Motion& motion, const SynchronizeSettings& settings) 
   return given == settings.restitution.value_or(given);
 }
 
+// Asked to lie the same way; faces are those of the object beside the motion. Where in doubt, no.
+bool sameOrientations(const Motion& motion, const SynchronizeSettings& settings,
+                      const fs::path& folder) {
+  if (motion.orientations.size() != settings.orientations.size()) return false;
+  if (motion.orientations.empty()) return true;
+  const auto object = readObjectFile(folder / (motion.object.name + ".json"));
+  if (!object) return false;
+  const int count = static_cast<int>(motion.contacts.size());
+  const int last = motion.contacts.back().terminal ? -1 : count - 1;
+  for (std::size_t i = 0; i < motion.orientations.size(); ++i) {
+    const MotionOrientation& made = motion.orientations[i];
+    const OrientationWish& wish = settings.orientations[i];
+    const auto face = object->faces.find(wish.face);
+    const bool named = face != object->faces.end();
+    if (!wish.face.empty() && !named) return false;
+    const Eigen::Vector3d body = named ? face->second : wish.body.normalized();
+    if (made.contact != (wish.contact == 0 || wish.contact == count ? last : wish.contact - 1) ||
+        !made.body.isApprox(body, 1e-9) || !made.world.isApprox(wish.world.normalized(), 1e-9)) {
+      return false;
+    }
+  }
+  return true;
+}
+
 // Where the best of several objects was taken, any of them.
 bool sameObject(const Motion& motion, const SynchronizeSettings& settings) {
   const auto objects = candidateObjects(settings.object);
@@ -109,6 +134,7 @@ bool isDone(const BatchItem& item, const SynchronizeSettings& settings, const fs
     const bool same = motion && sameRestitution(*motion, settings) && motion->success &&
                       motion->seed == settings.seed && motion->program == programVersion() &&
                       motion->planner == settings.planner && sameObject(*motion, settings) &&
+                      sameOrientations(*motion, settings, file.parent_path()) &&
                       (settings.surface.empty() || motion->object.surface == settings.surface);
     if (!same || !holds(file.parent_path(), output)) return false;
   }

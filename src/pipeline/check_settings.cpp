@@ -40,6 +40,9 @@ Result<void> checkSettings(const SynchronizeSettings& settings) {
     return usage("does not go with the planner graph, whose database holds one restitution", "fit",
                  "use --planner hybrid");
   }
+  if (!settings.orientations.empty() && settings.planner == "graph") {
+    return usage("is not known to the planner graph", "orientation", "use --planner hybrid");
+  }
   return checkRange(settings.preRollSeconds, 0, 10, "pre-roll");
 }
 

@@ -23,6 +23,7 @@
 #include "pipeline/learned.h"
 #include "pipeline/output.h"
 #include "pipeline/synchronize_with.h"
+#include "pipeline/wishes.h"
 #include "planner/planner.h"
 
 namespace ifa {
@@ -43,6 +44,7 @@ struct Job {
   std::unique_ptr<Planner> planner;
   EnergyOutlook outlook;
   SymmetryGroup symmetry;
+  std::vector<PlannedOrientation> orientations;
   std::shared_ptr<const ContactGraph> graph;  // for "graph"
   std::optional<EventDatabase> database;      // for "graph" and "hybrid"
 };
@@ -55,7 +57,10 @@ Result<Job> prepare(const SynchronizeSettings& settings) {
   if (!chosen) return tl::unexpected(chosen.error());
   auto heard = hear(settings, chosen->body.definition.mergeGap);
   if (!heard) return tl::unexpected(heard.error());
+  auto orientations = plannedOrientations(settings.orientations, chosen->body, heard->signature);
+  if (!orientations) return tl::unexpected(orientations.error());
   Job job;
+  job.orientations = std::move(*orientations);
   job.symmetry = findSymmetry(chosen->body);
   job.body = std::move(chosen->body);
   job.surface = std::move(chosen->surface);
@@ -121,6 +126,7 @@ PlanRequest makeRequest(const SynchronizeSettings& settings, const Job& job) {
   request.settings.timeOf = settings.graph.processorTime ? TimeOf::kThread : TimeOf::kClock;
   request.settings.symmetry = settings.graph.symmetry;
   request.settings.earlyExit = settings.graph.earlyExit;
+  request.orientations = job.orientations;
   request.outlook = job.outlook;
   request.graph = job.graph.get();
   request.database = job.database ? &*job.database : nullptr;

@@ -41,6 +41,14 @@ struct PlannerSettings {
   double earlyExit = kGoodScore;   ///< "graph": a motion of this Score ends the search
 };
 
+/// That a direction of the body points some way at a contact (IFA section 6): where its event
+/// begins, or, at a last one that comes to rest, where the body rests.
+struct PlannedOrientation {
+  std::size_t target = 0;                            ///< index of the signature's event
+  Eigen::Vector3d body = Eigen::Vector3d::UnitZ();   ///< unit, principal frame
+  Eigen::Vector3d world = Eigen::Vector3d::UnitZ();  ///< unit
+};
+
 struct Plan;
 
 /// What is to be planned.
@@ -50,6 +58,7 @@ struct PlanRequest {
   std::string surfaceName;  ///< for the motion file
   ContactSignature signature;
   PlannerSettings settings;
+  std::vector<PlannedOrientation> orientations;
   std::optional<EnergyOutlook> outlook;     ///< of body and surface; learnt when not given
   const ContactGraph* graph = nullptr;      ///< of body and surface; "graph" needs it
   const EventDatabase* database = nullptr;  ///< of body and surface; "hybrid" needs it

@@ -87,6 +87,7 @@ Plan planOf(const ShootingProblem& problem, const std::vector<ShootingNode>& pat
   }
   plan.worth = path.back().worth();
   sumUp(plan, path.back().log);
+  problem.wishes.settle(plan);
   return plan;
 }
 
@@ -100,6 +101,9 @@ std::string failureOf(const ShootingProblem& problem, const ShootingSearch& sear
   }
   const auto level = static_cast<std::size_t>(farthest->level);
   if (level + 1 >= events.size()) {
+    if (!problem.request.orientations.empty()) {
+      return "no motion that was found lies as --orient asks";
+    }
     return fmt::format(
         "the best motion's Score is {:.2f}, under {:.1f}: marks or object do not fit",
         farthest->log.score(static_cast<int>(events.size())), leastScore);

@@ -11,6 +11,7 @@
 #include "base/random.h"
 #include "planner/aimed_events.h"
 #include "planner/energy_outlook.h"
+#include "planner/orientation_wishes.h"
 #include "planner/event_simulation.h"
 #include "planner/flight_timing.h"
 #include "planner/planner.h"
@@ -26,6 +27,7 @@ struct ShootingProblem {
   ShootingPlannerSettings settings;
   BodyModel model;
   RecorderSettings recorder;
+  OrientationWishes wishes;
   EnergyOutlook outlook;
   std::vector<HeardEvent> targets;
   std::vector<EnergyOutlook::Features> features;  ///< of what follows each target but the last

@@ -27,7 +27,8 @@ void Takes::add(const ShootingSearch& search) {
   std::vector<Plan> found = std::exchange(plans_, {});
   for (const ShootingNode& node : search.complete()) {
     if (node.log.score(static_cast<int>(search.levels())) < kLeastScore) break;
-    found.push_back(planOf(problem_, search.path(node)));
+    Plan plan = planOf(problem_, search.path(node));
+    if (OrientationWishes::met(plan)) found.push_back(std::move(plan));
   }
   sort(found);
   for (Plan& plan : found) addIfNew(plan);

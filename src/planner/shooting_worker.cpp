@@ -300,6 +300,7 @@ void ShootingWorker::arrive(const ShootingNode& node, ShootingNode child, const 
     ending.log.sound += logAmplitude(target, ending.heard) + logDuration(target, ending.heard) +
                         logCentroid(target, ending.heard);
     if (jumps && !makesUpFor(jump, arrival, ending)) continue;
+    ending.ugly -= problem_.wishes.log(k, event);
     if (ending.worth() > bound) endings.push_back(ending);
   }
   std::stable_sort(endings.begin(), endings.end(),
@@ -378,7 +379,12 @@ double ShootingWorker::flightCost(const ShootingNode& node, int level, double du
   const bool allowed = flight->energy <= mostEnergy;
   const auto touch = firstTouch(problem_.model, flight->departure, duration + 1e-3);
   const bool clear = touch && std::abs(touch->time - duration) < kTouchPrecision;
-  const double cost = -logVelocity(flight->bend) + (allowed ? 0 : 2) + (clear ? 0 : 2);
+  double cost = -logVelocity(flight->bend) + (allowed ? 0 : 2) + (clear ? 0 : 2);
+  if (touch) {
+    const double wished =
+        problem_.wishes.logAtStart(static_cast<std::size_t>(level), touch->state.orientation);
+    cost += std::min(problem_.settings.restless, -wished);
+  }
   const bool closes =
       level + 1 == static_cast<int>(problem_.targets.size()) && problem_.request.signature.terminal;
   return closes && touch ? cost + endingCost(node, touch->state) : cost;
@@ -393,8 +399,9 @@ double ShootingWorker::endingCost(const ShootingNode& node, const RigidState& ar
   if (endings.empty()) return restless;
   const HeardEvent heard = heardOf(endings[0], node.firstAmplitude);
   const HeardEvent& target = problem_.targets.back();
+  const double wished = problem_.wishes.log(problem_.targets.size() - 1, endings[0]);
   return std::min(restless, -(logAmplitude(target, heard) + logDuration(target, heard) +
-                              logCentroid(target, heard)));
+                              logCentroid(target, heard) + wished));
 }
 
 HeardEvent ShootingWorker::heardOf(const ContactEvent& event, double firstAmplitude) const {

@@ -247,6 +247,23 @@ TEST(Audit, CatchesRestThatCannotStand) {
   EXPECT_TRUE(fails(motion, "rest support"));
 }
 
+TEST(Audit, CatchesABodyThatLiesOtherwiseThanAsked) {
+  Motion motion = makeSlidingMotion(box());
+  const Eigen::Vector3d shown = motion.trajectory.back().orientation * Eigen::Vector3d::UnitX();
+  motion.orientations = {{-1, Eigen::Vector3d::UnitX(), shown}};
+  EXPECT_TRUE(audit(motion, box()).passed());
+  motion.orientations[0].world = -shown;
+  EXPECT_TRUE(fails(motion, "orientation as asked"));
+  // Five degrees are one too many, at a contact as at the end.
+  const Eigen::Vector3d first =
+      motion.trajectory[sampleAt(motion, 0)].orientation * Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d axis = first.unitOrthogonal();
+  motion.orientations = {{0, Eigen::Vector3d::UnitX(), Eigen::AngleAxisd(0.06, axis) * first}};
+  EXPECT_TRUE(audit(motion, box()).passed());
+  motion.orientations[0].world = Eigen::AngleAxisd(0.087, axis) * first;
+  EXPECT_TRUE(fails(motion, "orientation as asked"));
+}
+
 TEST(Audit, CatchesAMotionThatEndsBeforeItRests) {
   Motion motion = makeSlidingMotion(box());
   motion.trajectory.resize(sampleAt(motion, motion.silent[0][1] - 0.05));

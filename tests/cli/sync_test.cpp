@@ -165,6 +165,36 @@ TEST_F(Sync, LooksForTheRestitutionAndTellsWhichItTook) {
   EXPECT_EQ(runProgram({"verify", folder_ / "out/motion.json"}).exit, 0);
 }
 
+TEST_F(Sync, ShowsTheFaceThatIsAskedFor) {
+  object_ = "d6";
+  for (const char* face : {"2", "5"}) {
+    const std::string wish = std::string("last:") + face + "=up";
+    const auto result = runProgram(command(face, {"--orient", wish, "--formats", "json"}));
+    ASSERT_EQ(result.exit, 0) << result.err;
+    const auto found = motion(face);
+    ASSERT_EQ(found.at("orientations").size(), 1U);
+    EXPECT_EQ(found.at("orientations")[0].at("contact"), -1);
+    const auto report = runProgram({"verify", folder_ / face / "motion.json"});
+    EXPECT_EQ(report.exit, 0);
+    EXPECT_THAT(report.out, HasSubstr("orientation as asked"));
+  }
+}
+
+TEST_F(Sync, RefusesWishesThatMakeNoSense) {
+  object_ = "d6";
+  const std::vector<std::pair<std::string, std::string>> all = {
+      {"last=up", "CONTACT"},          {"0:6=up", "contact's number"},
+      {"last:6=sideways", "up, down"}, {"last:=up", "no face"},
+      {"last:seven=up", "its faces"},  {"99:6=up", "contacts"},
+      {"last:0,0,0=up", "no length"},  {"last:6=1,2", "up, down"},
+      {"1e9:6=up", "number"},          {"last:0,0,1=nan,0,0", "numbers"}};
+  for (const auto& [wish, told] : all) {
+    const auto result = runProgram(command("out", {"--orient", wish}));
+    EXPECT_EQ(result.exit, 2) << wish;
+    EXPECT_THAT(result.err, HasSubstr(told)) << wish;
+  }
+}
+
 TEST_F(Sync, PlansWithTheRestitutionThatIsGiven) {
   ASSERT_EQ(runProgram(command("out", {"--restitution", "0.4"})).exit, 0);
   EXPECT_EQ(motion("out").at("object").at("restitution"), 0.4);
@@ -218,6 +248,22 @@ TEST_F(Sync, DoesAFolderOfSoundsAndListsFailures) {
   fs::remove(folder_ / "in/bad.wav");
   EXPECT_EQ(runProgram(words).exit, 0);
   EXPECT_EQ(fs::last_write_time(folder_ / "out/throw/motion.json"), before) << "done before";
+}
+
+TEST_F(Sync, DoesAFolderAgainWhereItIsAskedToLieOtherwise) {
+  fs::create_directory(folder_ / "in");
+  for (const char* name : {"throw.wav", "throw.txt"}) {
+    fs::rename(folder_ / name, folder_ / "in" / name);
+  }
+  const auto run = [&](const std::string& wish) {
+    const auto result = runProgram({"sync", folder_ / "in", "--object", "d6", "-o", folder_ / "out",
+                                    "--formats", "json", "--orient", wish});
+    EXPECT_EQ(result.exit, 0) << result.err;
+    return fs::last_write_time(folder_ / "out/throw/motion.json");
+  };
+  const auto first = run("last:6=up");
+  EXPECT_EQ(run("last:6=up"), first);
+  EXPECT_NE(run("last:1=up"), first);
 }
 
 TEST_F(Sync, CanBeInterrupted) {

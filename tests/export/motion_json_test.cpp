@@ -34,6 +34,7 @@ Motion fullMotion() {
   motion.contacts[2].arrivalBend = 1.0 / 7;
   motion.contacts[1].moved = -0.1 / 3;
   motion.dropped = {0.1 + 0.2, 0.4};
+  motion.orientations = {{-1, {0, 0.6, 0.8}, {0, 0, 1}}};
   return motion;
 }
 
@@ -106,6 +107,10 @@ TEST(MotionJson, ComesBackToTheLastBit) {
   EXPECT_EQ(read->contacts[1].moved, -0.1 / 3);
   EXPECT_EQ(read->contacts[0].moved, 0);
   EXPECT_EQ(read->dropped, original.dropped);
+  ASSERT_EQ(read->orientations.size(), 1U);
+  EXPECT_EQ(read->orientations[0].contact, -1);
+  EXPECT_EQ(read->orientations[0].body, original.orientations[0].body);
+  EXPECT_EQ(read->orientations[0].world, original.orientations[0].world);
   EXPECT_EQ(read->contacts[1].source.event, std::int64_t{1} << 60);
   EXPECT_EQ(read->contacts[1].factors.p, 1.0 / 3);
   EXPECT_EQ(read->silent, original.silent);
