@@ -15,6 +15,7 @@
 #include "pipeline/batch.h"
 #include "pipeline/choose_object.h"
 #include "pipeline/output_files.h"
+#include "pipeline/wishes.h"
 
 namespace ifa::cli {
 
@@ -28,6 +29,7 @@ struct SyncOptions {
   std::string formats = filmsCanBeWritten() ? "json,glb,mp4" : "json,glb";
   fs::path output;
   std::vector<std::string> orientations;
+  fs::path positions;
   bool noTerminal = false;
 };
 
@@ -65,6 +67,20 @@ std::string fitOf(const Motion& motion) {
                      motion.given->restitution, moved ? "on " + motion.given->surface + " " : "");
 }
 
+// How far off the places that were asked for are.
+void showPositions(Console& console, const Motion& motion) {
+  if (motion.positions.empty()) return;
+  double sum = 0, most = 0;
+  for (const MotionPosition& wish : motion.positions) {
+    const auto& contact = motion.contacts[static_cast<std::size_t>(wish.contact)];
+    const double off = (contact.position.head<2>() - wish.place).norm();
+    sum += off;
+    most = std::max(most, off);
+  }
+  console.result(fmt::format("  places are missed by {:.1f} mm on average, {:.1f} mm at most",
+                             1e3 * sum / static_cast<double>(motion.positions.size()), 1e3 * most));
+}
+
 // Marks in doubt that the motion does not meet where they were heard.
 void showDoubtfulMarks(Console& console, const Motion& motion) {
   const double first = motion.sound.firstContact;
@@ -87,6 +103,7 @@ void showTake(Console& console, const Motion& motion, bool energyAsked, const fs
         "  nothing found that loses energy at every contact: one may add up to {:.0f} % of it",
         100 * motion.energyGain));
   }
+  showPositions(console, motion);
   showDoubtfulMarks(console, motion);
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
@@ -175,6 +192,11 @@ int runSync(SyncOptions options, CommandContext& context) {
     if (!wish) return context.fail(wish.error());
     options.settings.orientations.push_back(*wish);
   }
+  if (!options.positions.empty()) {
+    auto positions = readPositions(options.positions);
+    if (!positions) return context.fail(positions.error());
+    options.settings.positions = std::move(*positions);
+  }
   std::error_code code;
   const bool isFolder = fs::is_directory(options.settings.sound, code);
   return isFolder ? syncFolder(options, context) : syncSound(options, context);
@@ -206,6 +228,8 @@ void addSearchOptions(CLI::App& command, SyncOptions& options) {
   command.add_option("--orient", options.orientations,
                      "CONTACT:FACE=up|down, as last:6=up; CONTACT a number from 1 or last, FACE of "
                      "the object file or x,y,z of the mesh; a direction x,y,z for up; repeatable");
+  command.add_option("--positions", options.positions,
+                     "file with places in the plane: contact, x and y in metres, tabs between");
   addGraphOptions(command, settings.graph);
 }
 

@@ -99,6 +99,12 @@ struct MotionOrientation {
   Eigen::Vector3d world = Eigen::Vector3d::UnitZ();  ///< unit
 };
 
+/// Where a contact was asked to begin: the centre of mass, seen from above.
+struct MotionPosition {
+  int contact = 0;                                  ///< index into the contacts
+  Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< m
+};
+
 /// The event database that was used, if any.
 struct DatabaseReference {
   std::int64_t simulations = 0, events = 0;
@@ -129,6 +135,7 @@ struct Motion {
   std::vector<MotionContact> contacts;
   std::vector<double> dropped;  ///< doubtful marks that no contact meets, s after the first contact
   std::vector<MotionOrientation> orientations;  ///< that were asked for
+  std::vector<MotionPosition> positions;        ///< likewise
   std::vector<std::array<double, 2>> silent;    ///< intervals of silent contact, s
   std::vector<MotionSample>
       trajectory;  ///< non-decreasing times; two samples share an impact's time

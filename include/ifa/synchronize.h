@@ -47,6 +47,12 @@ struct OrientationWish {
   Eigen::Vector3d world = Eigen::Vector3d::UnitZ();  ///< z is up
 };
 
+/// Where the centre of mass is to be, seen from above, when a contact begins (IFA section 6).
+struct PositionWish {
+  int contact = 1;                                  ///< from 1
+  Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< m
+};
+
 /// What is to be synchronised, and how. The defaults are those of `ifa sync`.
 struct SynchronizeSettings {
   std::filesystem::path sound;  ///< sound file; or contacts alone: signature JSON, CSV, MIDI
@@ -72,6 +78,7 @@ struct SynchronizeSettings {
   double timeLimitSeconds = 0;  ///< cuts the search off; 0: never
   double energyGain = 0;        ///< share of energy that a contact may add; 0 in nature
   std::vector<OrientationWish> orientations;  ///< docs/controls.md
+  std::vector<PositionWish> positions;        ///< likewise; in any order
   std::optional<bool> terminal;  ///< overrides what labels or signature say of the ending
   double preRollSeconds = 0.5;   ///< flight shown before the first contact
 };

@@ -23,6 +23,7 @@ struct AffinityParameters {
   double amplitude = 2.78;                  ///< c_a, eq. 6
   double duration = 7000;                   ///< c_Delta, s^-2, eq. 7 and 8
   double orientationWish = 140;             ///< c_o, section 6: half at 4 degrees
+  double positionWish = 7000;               ///< c_p, section 6, m^-2: half at 1 cm
   /// Decision: a contact that changes the velocity by less is taken to change it by this much, or
   /// the plausible region would vanish. m/s; for the spin, this over the body's radius.
   double smallestChange = 0.05;
@@ -65,6 +66,11 @@ class PlausibleRegion {
 /// should, rad
 [[nodiscard]] inline double logOrientationWish(double angle, const AffinityParameters& set = {}) {
   return -set.orientationWish * angle * angle;
+}
+
+/// f_p of section 6. @param distance  between where a contact begins and where it should, m
+[[nodiscard]] inline double logPositionWish(double distance, const AffinityParameters& set = {}) {
+  return -set.positionWish * distance * distance;
 }
 
 /// Eq. 5. @param target, blended  times of the flight, s, > 0

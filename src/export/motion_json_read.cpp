@@ -139,6 +139,19 @@ void readOrientations(const JsonNode& node, Motion& motion) {
   }
 }
 
+void readPositions(const JsonNode& node, Motion& motion) {
+  motion.positions.resize(node.count());
+  for (std::size_t i = 0; i < motion.positions.size(); ++i) {
+    const JsonNode wish = node.item(i), place = wish.member("place");
+    MotionPosition& read = motion.positions[i];
+    read.contact = wish.member("contact").integer<int>();
+    if (place.count(2) == 2) read.place = {place.item(0).number(), place.item(1).number()};
+    if (read.contact < 0 || read.contact >= static_cast<int>(motion.contacts.size())) {
+      wish.reject("is of a contact that is not there");
+    }
+  }
+}
+
 void readSilent(const JsonNode& node, Motion& motion) {
   motion.silent.resize(node.count());
   for (std::size_t i = 0; i < motion.silent.size(); ++i) {
@@ -207,6 +220,7 @@ Result<Motion> parseMotion(std::string_view json, const std::string& place) {
     readContacts(root.member("contacts"), motion);
     if (root.has("dropped")) readDropped(root.member("dropped"), motion);
     if (root.has("orientations")) readOrientations(root.member("orientations"), motion);
+    if (root.has("positions")) readPositions(root.member("positions"), motion);
     readSilent(root.member("silent"), motion);
     readTrajectory(root.member("trajectory"), motion);
   }

@@ -179,6 +179,13 @@ Result<std::string> formatMotion(const Motion& motion) {
           out.field("world", wish.world, "}");
         });
   }
+  if (!motion.positions.empty()) {
+    out.raw(",\n ").key("positions").array(motion.positions.size(), 4, "  ", [&](std::size_t i) {
+      const MotionPosition& wish = motion.positions[i];
+      out.raw("{").field("contact", std::int64_t{wish.contact});
+      out.field("place", std::array<double, 2>{wish.place.x(), wish.place.y()}, "}");
+    });
+  }
   out.raw(",\n ").key("silent").array(motion.silent.size(), 8, "  ",
                                       [&](std::size_t i) { out.value(motion.silent[i]); });
   out.raw(",\n ");

@@ -71,6 +71,7 @@ class Builder {
       ++next;
     }
     orientations();
+    positions();
   }
 
  private:
@@ -85,6 +86,15 @@ class Builder {
           request_.signature.terminal && wish.target + 1 == request_.signature.events.size();
       motion_.orientations.push_back({rests ? -1 : static_cast<int>(met - plan_.contacts.begin()),
                                       request_.body->bodyFromPrincipal * wish.body, wish.world});
+    }
+  }
+
+  void positions() {
+    for (const PlannedPosition& wish : request_.positions) {
+      for (std::size_t k = 0; k < plan_.contacts.size(); ++k) {
+        if (static_cast<std::size_t>(plan_.contacts[k].target) != wish.target) continue;
+        motion_.positions.push_back({static_cast<int>(k), wish.place});
+      }
     }
   }
 

@@ -92,9 +92,10 @@ bool sameRestitution(const Motion& motion, const SynchronizeSettings& settings) 
 }
 
 // Asked to lie the same way; faces are those of the object beside the motion. Where in doubt, no.
-bool sameOrientations(const Motion& motion, const SynchronizeSettings& settings,
-                      const fs::path& folder) {
+bool sameWishes(const Motion& motion, const SynchronizeSettings& settings, const fs::path& folder) {
   if (motion.orientations.size() != settings.orientations.size()) return false;
+  // Places are of one motion: whoever asks them of a folder has each done again.
+  if (!settings.positions.empty() || !motion.positions.empty()) return false;
   if (motion.orientations.empty()) return true;
   const auto object = readObjectFile(folder / (motion.object.name + ".json"));
   if (!object) return false;
@@ -134,7 +135,7 @@ bool isDone(const BatchItem& item, const SynchronizeSettings& settings, const fs
     const bool same = motion && sameRestitution(*motion, settings) && motion->success &&
                       motion->seed == settings.seed && motion->program == programVersion() &&
                       motion->planner == settings.planner && sameObject(*motion, settings) &&
-                      sameOrientations(*motion, settings, file.parent_path()) &&
+                      sameWishes(*motion, settings, file.parent_path()) &&
                       (settings.surface.empty() || motion->object.surface == settings.surface);
     if (!same || !holds(file.parent_path(), output)) return false;
   }

@@ -40,8 +40,10 @@ Result<void> checkSettings(const SynchronizeSettings& settings) {
     return usage("does not go with the planner graph, whose database holds one restitution", "fit",
                  "use --planner hybrid");
   }
-  if (!settings.orientations.empty() && settings.planner == "graph") {
-    return usage("is not known to the planner graph", "orientation", "use --planner hybrid");
+  const bool wishes = !settings.orientations.empty() || !settings.positions.empty();
+  if (wishes && settings.planner == "graph") {
+    return usage("cannot be asked of the planner graph", "orientation or positions",
+                 "use --planner hybrid");
   }
   return checkRange(settings.preRollSeconds, 0, 10, "pre-roll");
 }

@@ -45,6 +45,7 @@ struct Job {
   EnergyOutlook outlook;
   SymmetryGroup symmetry;
   std::vector<PlannedOrientation> orientations;
+  std::vector<PlannedPosition> positions;
   std::shared_ptr<const ContactGraph> graph;  // for "graph"
   std::optional<EventDatabase> database;      // for "graph" and "hybrid"
 };
@@ -59,7 +60,10 @@ Result<Job> prepare(const SynchronizeSettings& settings) {
   if (!heard) return tl::unexpected(heard.error());
   auto orientations = plannedOrientations(settings.orientations, chosen->body, heard->signature);
   if (!orientations) return tl::unexpected(orientations.error());
+  auto positions = plannedPositions(settings.positions, heard->signature);
+  if (!positions) return tl::unexpected(positions.error());
   Job job;
+  job.positions = std::move(*positions);
   job.orientations = std::move(*orientations);
   job.symmetry = findSymmetry(chosen->body);
   job.body = std::move(chosen->body);
@@ -127,6 +131,7 @@ PlanRequest makeRequest(const SynchronizeSettings& settings, const Job& job) {
   request.settings.symmetry = settings.graph.symmetry;
   request.settings.earlyExit = settings.graph.earlyExit;
   request.orientations = job.orientations;
+  request.positions = job.positions;
   request.outlook = job.outlook;
   request.graph = job.graph.get();
   request.database = job.database ? &*job.database : nullptr;

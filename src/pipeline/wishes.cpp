@@ -3,7 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
 #include <string>
+#include <string_view>
+
+#include "base/file.h"
+#include "signature/text_fields.h"
 
 namespace ifa {
 
@@ -25,6 +32,12 @@ Result<Eigen::Vector3d> directionOf(const OrientationWish& wish, const Body& bod
                      : "its faces: " + known});
 }
 
+tl::unexpected<Error> notThere(int contact, std::size_t contacts, const char* place) {
+  return tl::unexpected<Error>(
+      {ErrorCode::kUsage, fmt::format("contact {} is not there", contact), place,
+       fmt::format("the sound has {} contacts; give 1 to {}", contacts, contacts)});
+}
+
 }  // namespace
 
 Result<std::vector<PlannedOrientation>> plannedOrientations(
@@ -34,9 +47,7 @@ Result<std::vector<PlannedOrientation>> plannedOrientations(
   const std::size_t contacts = signature.events.size();
   for (const OrientationWish& wish : wishes) {
     if (wish.contact < 0 || static_cast<std::size_t>(wish.contact) > contacts) {
-      return tl::unexpected<Error>(
-          {ErrorCode::kUsage, fmt::format("contact {} is not there", wish.contact), kPlace,
-           fmt::format("the sound has {} contacts; give 1 to {}, or last", contacts, contacts)});
+      return notThere(wish.contact, contacts, kPlace);
     }
     const auto direction = directionOf(wish, body);
     if (!direction) return tl::unexpected(direction.error());
@@ -51,6 +62,79 @@ Result<std::vector<PlannedOrientation>> plannedOrientations(
                        wish.world.normalized()});
   }
   return planned;
+}
+
+Result<std::vector<PlannedPosition>> plannedPositions(std::vector<PositionWish> wishes,
+                                                      const ContactSignature& signature) {
+  constexpr const char* kPlaceOfWish = "positions";
+  constexpr double kFarthest = 1000;  // m
+  std::stable_sort(wishes.begin(), wishes.end(), [](const PositionWish& a, const PositionWish& b) {
+    return a.contact < b.contact;
+  });
+  std::vector<PlannedPosition> planned;
+  const std::size_t contacts = signature.events.size();
+  for (const PositionWish& wish : wishes) {
+    if (wish.contact < 1 || static_cast<std::size_t>(wish.contact) > contacts) {
+      return notThere(wish.contact, contacts, kPlaceOfWish);
+    }
+    const auto target = static_cast<std::size_t>(wish.contact - 1);
+    if (!planned.empty() && planned.back().target == target) {
+      return tl::unexpected<Error>({ErrorCode::kUsage,
+                                    fmt::format("contact {} has two places", wish.contact),
+                                    kPlaceOfWish, "leave one of them out"});
+    }
+    if (!wish.place.allFinite() || wish.place.norm() > kFarthest) {
+      return tl::unexpected<Error>({ErrorCode::kUsage,
+                                    fmt::format("contact {} is too far away", wish.contact),
+                                    kPlaceOfWish, "give metres"});
+    }
+    planned.push_back({target, wish.place});
+  }
+  return planned;
+}
+
+namespace {
+
+/// "3<TAB>0.12<TAB>-0.05"
+std::optional<PositionWish> parsePosition(std::string_view line) {
+  std::vector<double> numbers;
+  for (;;) {
+    const std::size_t tab = line.find('\t');
+    const auto number = numberOf(trimmed(line.substr(0, tab)));
+    if (!number || !std::isfinite(*number)) return {};
+    numbers.push_back(*number);
+    if (tab == std::string_view::npos) break;
+    line.remove_prefix(tab + 1);
+  }
+  constexpr double kMostContacts = 1e6;
+  if (numbers.size() != 3 || numbers[0] != std::floor(numbers[0]) || numbers[0] < 1 ||
+      numbers[0] > kMostContacts) {
+    return {};
+  }
+  return PositionWish{static_cast<int>(numbers[0]), {numbers[1], numbers[2]}};
+}
+
+}  // namespace
+
+Result<std::vector<PositionWish>> readPositions(const std::filesystem::path& path) {
+  const auto bytes = readFile(path, 1 << 20);
+  if (!bytes) return tl::unexpected(bytes.error());
+  const auto text = checkText(*bytes, path.string());
+  if (!text) return tl::unexpected(text.error());
+  std::vector<PositionWish> wishes;
+  std::string_view rest = *text;
+  for (int number = 1; !rest.empty(); ++number) {
+    const std::string_view line = trimmed(takeLine(rest));
+    if (line.empty() || line[0] == '#') continue;
+    const auto wish = parsePosition(line);
+    if (!wish) {
+      return badInput("is no place", fmt::format("{}:{}", path.string(), number),
+                      "give a contact's number, x and y in metres, tabs between");
+    }
+    wishes.push_back(*wish);
+  }
+  if (wishes.empty()) return badInput("names no place", path.string(), "one line for each contact");
+  return wishes;
 }
 
 }  // namespace ifa

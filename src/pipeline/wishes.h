@@ -2,6 +2,7 @@
 // What the user asks of a motion beside its sound, as planners understand it (docs/controls.md).
 #pragma once
 
+#include <filesystem>
 #include <vector>
 
 #include "body/body.h"
@@ -17,5 +18,14 @@ namespace ifa {
 [[nodiscard]] Result<std::vector<PlannedOrientation>> plannedOrientations(
     const std::vector<OrientationWish>& wishes, const Body& body,
     const ContactSignature& signature);
+
+/// A line for each: number of the contact from 1, x and y in metres, tabs between. Lines that begin
+/// with # say nothing. Errors: kBadInput with the line; at most 1 MiB.
+[[nodiscard]] Result<std::vector<PositionWish>> readPositions(const std::filesystem::path& path);
+
+/// In order of their contacts. Errors: kUsage for a contact that the sound does not have, or that
+/// is asked for twice, and for a place that is no place within a kilometre.
+[[nodiscard]] Result<std::vector<PlannedPosition>> plannedPositions(
+    std::vector<PositionWish> wishes, const ContactSignature& signature);
 
 }  // namespace ifa

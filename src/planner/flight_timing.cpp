@@ -66,14 +66,24 @@ namespace {
 class Timing {
  public:
   Timing(const BodyModel& model, const RigidState& after, const PlausibleRegion& region,
-         double duration)
+         double duration, const std::optional<Eigen::Vector2d>& level = {})
       : model_(model),
         after_(after),
         region_(region),
         duration_(duration),
+        level_(level),
         start_(kernelState(after, 0)),
         rotation_(start_.q),
         drop_(after.position.z() - 0.5 * kGravity * duration * duration) {}
+
+  /// Gives the wish the horizontal velocity that is asked for.
+  void steer(Coordinates& wish) const {
+    if (!level_) return;
+    Vector3d linear, angular;
+    region_.change(wish, linear, angular);
+    linear.head<2>() = *level_ - after_.velocity.head<2>();
+    wish = region_.coordinates(linear, angular);
+  }
 
   /// A Gauss-Newton step of least norm towards a touch in time; false when it is there already.
   bool approach(Coordinates& wish) const {
@@ -98,6 +108,7 @@ class Timing {
     const std::size_t lowest = lowestVertex(model_, now.up());
     const double rise = -(drop_ + heightOf(model_, lowest, now.up())) / duration_;
     flight.velocityChange.z() = rise - after_.velocity.z();
+    if (level_) flight.velocityChange.head<2>() = *level_ - after_.velocity.head<2>();
     const Vec<double> upRate = cross(now.up(), now.w);
     if (rise - kGravity * duration_ + heightOf(model_, lowest, upRate) >= 0) return std::nullopt;
     flight.bend = region_.bend(flight.velocityChange, flight.angularVelocityChange);
@@ -167,6 +178,7 @@ class Timing {
   const RigidState& after_;
   const PlausibleRegion& region_;
   double duration_;
+  std::optional<Eigen::Vector2d> level_;  ///< horizontal velocity, m/s
   KernelState<double> start_;
   Rotation<double> rotation_;
   double drop_;  ///< height of the centre of mass by then, had it no vertical velocity
@@ -176,9 +188,11 @@ class Timing {
 
 std::optional<TimedFlight> timeFlight(const BodyModel& model, const RigidState& after,
                                       const PlausibleRegion& region, Coordinates wish,
-                                      double duration, double mostEnergy) {
+                                      double duration, double mostEnergy,
+                                      const std::optional<Eigen::Vector2d>& level) {
   constexpr int kCoolings = 3;
-  const Timing timing(model, after, region, duration);
+  const Timing timing(model, after, region, duration, level);
+  timing.steer(wish);
   std::optional<TimedFlight> flight;
   for (int cooling = 0; cooling <= kCoolings; ++cooling) {
     for (int step = 0; step < 2 && timing.approach(wish); ++step) {

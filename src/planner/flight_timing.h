@@ -25,10 +25,12 @@ struct TimedFlight {
 /// The change nearest to the coordinates `wish` (in the metric of the plausible region) after which
 /// the lowest vertex is on the ground `duration` seconds later and on its way down: two
 /// Gauss-Newton steps of least norm over all six coordinates, then closed exactly by the vertical
-/// velocity. Whether something touches earlier is not looked at here.
-[[nodiscard]] std::optional<TimedFlight> timeFlight(const BodyModel& model, const RigidState& after,
-                                                    const PlausibleRegion& region, Coordinates wish,
-                                                    double duration, double mostEnergy);
+/// velocity. Where `level` is given, the horizontal velocity is that. Whether something touches
+/// earlier is not looked at here.
+[[nodiscard]] std::optional<TimedFlight> timeFlight(
+    const BodyModel& model, const RigidState& after, const PlausibleRegion& region,
+    Coordinates wish, double duration, double mostEnergy,
+    const std::optional<Eigen::Vector2d>& level = {});
 
 /// How a flight whose spin is not changed arrives `duration` seconds later, and what tilts it.
 struct AimingFlight {

@@ -49,6 +49,12 @@ struct PlannedOrientation {
   Eigen::Vector3d world = Eigen::Vector3d::UnitZ();  ///< unit
 };
 
+/// Where the centre of mass is to be, seen from above, when a contact begins (IFA section 6).
+struct PlannedPosition {
+  std::size_t target = 0;                           ///< index of the signature's event
+  Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< m
+};
+
 struct Plan;
 
 /// What is to be planned.
@@ -59,6 +65,7 @@ struct PlanRequest {
   ContactSignature signature;
   PlannerSettings settings;
   std::vector<PlannedOrientation> orientations;
+  std::vector<PlannedPosition> positions;   ///< in order of their targets, one for each at most
   std::optional<EnergyOutlook> outlook;     ///< of body and surface; learnt when not given
   const ContactGraph* graph = nullptr;      ///< of body and surface; "graph" needs it
   const EventDatabase* database = nullptr;  ///< of body and surface; "hybrid" needs it

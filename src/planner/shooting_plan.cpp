@@ -88,6 +88,7 @@ Plan planOf(const ShootingProblem& problem, const std::vector<ShootingNode>& pat
   plan.worth = path.back().worth();
   sumUp(plan, path.back().log);
   problem.wishes.settle(plan);
+  problem.places.settle(plan);
   return plan;
 }
 

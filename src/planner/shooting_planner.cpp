@@ -45,7 +45,9 @@ class ShootingRun {
       if (static_cast<double>(pieces_) > most) break;
       if (!goesOn(pass, passes, work_.width(std::min(settings_.widest, width + 0.5 * pass)))) break;
     }
-    if (!takes_.plans().empty() && !takes_.enough() && !stop()) takes_.move();
+    // What is moved would not be where it is asked to be.
+    const bool moves = request_.positions.empty();
+    if (moves && !takes_.plans().empty() && !takes_.enough() && !stop()) takes_.move();
     if (progress_.stopRequested() && takes_.plans().empty()) {
       return tl::unexpected<Error>({ErrorCode::kInterrupted, "interrupted", {}, {}});
     }

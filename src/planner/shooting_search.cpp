@@ -67,7 +67,11 @@ std::size_t firstOf(const std::vector<bool>& hard) {
 }  // namespace
 
 ShootingProblem::ShootingProblem(const PlanRequest& planned, const ShootingPlannerSettings& tuning)
-    : request(planned), settings(tuning), model(*planned.body, planned.surface), wishes(planned) {
+    : request(planned),
+      settings(tuning),
+      model(*planned.body, planned.surface),
+      wishes(planned),
+      places(planned) {
   recorder = audibleCut(*planned.body, planned.surface);
   std::vector<double> times, amplitudes;
   for (const SignatureEvent& event : planned.signature.events) {

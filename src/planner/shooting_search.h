@@ -11,10 +11,11 @@
 #include "base/random.h"
 #include "planner/aimed_events.h"
 #include "planner/energy_outlook.h"
-#include "planner/orientation_wishes.h"
 #include "planner/event_simulation.h"
 #include "planner/flight_timing.h"
+#include "planner/orientation_wishes.h"
 #include "planner/planner.h"
+#include "planner/position_wishes.h"
 #include "planner/shooting_planner_settings.h"
 
 namespace ifa {
@@ -28,6 +29,7 @@ struct ShootingProblem {
   BodyModel model;
   RecorderSettings recorder;
   OrientationWishes wishes;
+  PositionWishes places;
   EnergyOutlook outlook;
   std::vector<HeardEvent> targets;
   std::vector<EnergyOutlook::Features> features;  ///< of what follows each target but the last
@@ -54,6 +56,7 @@ struct ShootingNode {
   /// By how much the event's own velocities differ from those with which the body arrives.
   Eigen::Vector3d arrivalChange = Eigen::Vector3d::Zero(), arrivalAngular = Eigen::Vector3d::Zero();
   double bend = 0, arrivalBend = 0;
+  Registered registered;  ///< with the contacts up to this one
   Arrival arrival = Arrival::kFlight;
   ContactSource source;
   HeardEvent heard;

@@ -90,6 +90,7 @@ void ShootingWorker::expand(const ShootingNode& node, int index, int level, doub
   child.firstAmplitude = node.firstAmplitude;
   child.log = node.log;
   child.ugly = node.ugly;
+  child.registered = node.registered;
   child.log.sound -= droppedBetween(node.level, level);
   const SignatureEvent& target = problem_.request.signature.events[static_cast<std::size_t>(level)];
   child.start = target.time;
@@ -131,7 +132,8 @@ void ShootingWorker::expandTo(const ShootingNode& node, ShootingNode child, cons
       for (int axis = 0; axis < 6; ++axis) wish[axis] = spread * bellShaped(random);
     }
     const double restitution = variedRestitution(level, i, random);
-    shoot(node, child, region, wish, duration, restitution, bound);
+    const double eager = i == 0 || !problem_.places.any() ? 1 : random.uniform(0.5, 1.5);
+    shoot(node, child, region, wish, duration, eager, restitution, bound);
   }
   const int aimed = level + 1 == n ? set.aimedEndingBeam : set.aimedBeam;
   if (flies && index < aimed && !problem_.aims.empty() && !node.event.touchingAfter) {
@@ -159,10 +161,10 @@ bool ShootingWorker::stuckAfter(int level) const {
 
 void ShootingWorker::shoot(const ShootingNode& node, ShootingNode child,
                            const PlausibleRegion& region, const Coordinates& wish, double duration,
-                           double restitution, double bound) {
+                           double eager, double restitution, double bound) {
   const double mostEnergy = node.energyBefore * (1 + settings().energyGain);
-  const auto flight =
-      timeFlight(problem_.model, node.event.after, region, wish, duration, mostEnergy);
+  const auto flight = timeFlight(problem_.model, node.event.after, region, wish, duration,
+                                 mostEnergy, steeredTo(node, child.level, region, duration, eager));
   if (!flight) {
     ++deaths.noFlight;
     return;
@@ -301,6 +303,7 @@ void ShootingWorker::arrive(const ShootingNode& node, ShootingNode child, const 
                         logCentroid(target, ending.heard);
     if (jumps && !makesUpFor(jump, arrival, ending)) continue;
     ending.ugly -= problem_.wishes.log(k, event);
+    ending.ugly -= problem_.places.meet(k, event.before.position.head<2>(), ending.registered);
     if (ending.worth() > bound) endings.push_back(ending);
   }
   std::stable_sort(endings.begin(), endings.end(),
@@ -312,96 +315,6 @@ void ShootingWorker::arrive(const ShootingNode& node, ShootingNode child, const 
     judge(ending);
     children.push_back(ending);
   }
-}
-
-/// Ranks a motion by its score so far, the cost of the next step, and whether its energy suits what
-/// follows.
-void ShootingWorker::judge(ShootingNode& node) const {
-  node.rank = node.worth();
-  const auto k = static_cast<std::size_t>(node.level);
-  if (k + 1 >= problem_.targets.size()) return;
-  node.rank -= problem_.settings.lookAheadWeight * lookAhead(node);
-  EnergyOutlook::Features features = problem_.features[k];
-  features[4] += portableLog(node.firstAmplitude);
-  const double off = std::abs(problem_.outlook.deviation(node.energyAfter, features)) - 1;
-  if (off > 0) node.rank -= problem_.settings.outlookWeight * off * off;
-}
-
-/// Log units that the motion would lose on its way to the next target, or to another moment at
-/// which that may begin, or, where it may be left out, to the one after it.
-double ShootingWorker::lookAhead(ShootingNode& node) const {
-  const auto& events = problem_.request.signature.events;
-  const int level = node.level + 1;
-  const SignatureEvent& target = events[static_cast<std::size_t>(level)];
-  const Way next = wayTo(node, level, target.time);
-  node.flightCost = next.flightCost;
-  node.silentOff = next.silentOff;
-  double cost = next.cost;
-  for (const AlternativeStart& other : target.alternatives) {
-    if (other.cost < cost) cost = std::min(cost, other.cost + wayTo(node, level, other.time).cost);
-  }
-  const double dropped = droppedBetween(node.level, level + 1);
-  const bool last = level + 1 == static_cast<int>(events.size());
-  if (target.weight < 1 && !last && dropped < cost) {
-    const double time = events[static_cast<std::size_t>(level + 1)].time;
-    cost = std::min(cost, dropped + wayTo(node, level + 1, time).cost);
-  }
-  return cost;
-}
-
-/// With the smallest change that flies there at `time`, or, where the motion does not just fly, by
-/// how far it misses that time unchanged.
-auto ShootingWorker::wayTo(const ShootingNode& node, int level, double time) const -> Way {
-  const double hopeless = problem_.settings.hopeless;
-  const double duration = time - node.start - node.event.end;
-  Way way;
-  if (duration < shortestPassage()) return {0, ShootingNode::kNotSilent, 2 * hopeless};
-  way.flightCost = flightCost(node, level, duration);
-  way.cost = way.flightCost;
-  if (way.flightCost < 1) return way;
-  const double horizon = silentHorizon(duration);
-  const auto next = simulation_.nextAudible(node.event.after, horizon);
-  if (next && !next->silentContact) {
-    way.cost = std::min(way.flightCost, hopeless);
-    return way;
-  }
-  const double delay = next ? std::min(next->delay, horizon) : horizon;
-  way.silentOff = std::abs(delay - duration) / std::max(0.004, 0.1 * duration);
-  way.cost = std::min({hopeless, way.flightCost, 0.5 + way.silentOff * way.silentOff});
-  return way;
-}
-
-double ShootingWorker::flightCost(const ShootingNode& node, int level, double duration) const {
-  const double mostEnergy = node.energyBefore * (1 + settings().energyGain);
-  const auto flight = timeFlight(problem_.model, node.event.after, regionOf(node.event),
-                                 Coordinates::Zero(), duration, mostEnergy);
-  if (!flight) return problem_.settings.hopeless;
-  const bool allowed = flight->energy <= mostEnergy;
-  const auto touch = firstTouch(problem_.model, flight->departure, duration + 1e-3);
-  const bool clear = touch && std::abs(touch->time - duration) < kTouchPrecision;
-  double cost = -logVelocity(flight->bend) + (allowed ? 0 : 2) + (clear ? 0 : 2);
-  if (touch) {
-    const double wished =
-        problem_.wishes.logAtStart(static_cast<std::size_t>(level), touch->state.orientation);
-    cost += std::min(problem_.settings.restless, -wished);
-  }
-  const bool closes =
-      level + 1 == static_cast<int>(problem_.targets.size()) && problem_.request.signature.terminal;
-  return closes && touch ? cost + endingCost(node, touch->state) : cost;
-}
-
-/// Log units lost by the last event if it began at `arrival`, as far as that is bearable.
-double ShootingWorker::endingCost(const ShootingNode& node, const RigidState& arrival) const {
-  std::vector<ContactEvent> endings;
-  simulation_.outcomes(arrival, problem_.model.surface.restitution, true, false, endings,
-                       mergeGapOf(problem_.targets.size() - 1));
-  const double restless = problem_.settings.restless;
-  if (endings.empty()) return restless;
-  const HeardEvent heard = heardOf(endings[0], node.firstAmplitude);
-  const HeardEvent& target = problem_.targets.back();
-  const double wished = problem_.wishes.log(problem_.targets.size() - 1, endings[0]);
-  return std::min(restless, -(logAmplitude(target, heard) + logDuration(target, heard) +
-                              logCentroid(target, heard) + wished));
 }
 
 HeardEvent ShootingWorker::heardOf(const ContactEvent& event, double firstAmplitude) const {

@@ -58,7 +58,8 @@ class ShootingWorker {
                 RandomStream& random, double bound);
   [[nodiscard]] Way wayTo(const ShootingNode& node, int level, double time) const;
   void shoot(const ShootingNode& node, ShootingNode child, const PlausibleRegion& region,
-             const Coordinates& wish, double duration, double restitution, double bound);
+             const Coordinates& wish, double duration, double eager, double restitution,
+             double bound);
   void shootSilently(const ShootingNode& node, const ShootingNode& child,
                      const PlausibleRegion& region, double duration, int probes,
                      RandomStream& random, double bound);
@@ -78,6 +79,9 @@ class ShootingWorker {
                                 ShootingNode& ending) const;
   void judge(ShootingNode& child) const;
   [[nodiscard]] double lookAhead(ShootingNode& node) const;
+  [[nodiscard]] std::optional<Eigen::Vector2d> steeredTo(const ShootingNode& node, int level,
+                                                         const PlausibleRegion& region,
+                                                         double duration, double eager) const;
   [[nodiscard]] double flightCost(const ShootingNode& node, int level, double duration) const;
   [[nodiscard]] const PlannerSettings& settings() const { return problem_.request.settings; }
   [[nodiscard]] double shortestPassage() const;

@@ -195,6 +195,37 @@ TEST_F(Sync, RefusesWishesThatMakeNoSense) {
   }
 }
 
+TEST_F(Sync, PutsTheBodyWhereItIsAskedFor) {
+  writeText(folder_ / "places.tsv", "# contact, x, y\n1\t0.5\t-0.25\n");
+  const auto result = runProgram(command("out", {"--positions", folder_ / "places.tsv"}));
+  ASSERT_EQ(result.exit, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("missed by 0.0 mm"));
+  const auto position = motion("out").at("contacts")[0].at("position");
+  EXPECT_NEAR(position[0].get<double>(), 0.5, 1e-9);
+  EXPECT_NEAR(position[1].get<double>(), -0.25, 1e-9);
+  EXPECT_EQ(motion("out").at("positions").size(), 1U);
+  EXPECT_EQ(runProgram({"verify", folder_ / "out/motion.json"}).exit, 0);
+}
+
+TEST_F(Sync, RefusesPlacesThatAreNone) {
+  const std::vector<std::tuple<std::string, int, std::string>> all = {
+      {"1\t0.5\n", 3, ":1"},
+      {"# only this\n", 3, "no place"},
+      {"1.5\t0\t0\n", 3, ":1"},
+      {"1\t0\t0\n2\tx\t0\n", 3, ":2"},
+      {"1\t0\tnan\n", 3, ":1"},
+      {"99\t0\t0\n", 2, "contact 99"},
+      {"1\t0\t0\n1\t1\t0\n", 2, "two places"},
+      {"1\t1e6\t0\n", 2, "metres"}};
+  for (const auto& [text, exit, told] : all) {
+    writeText(folder_ / "places.tsv", text);
+    const auto result = runProgram(command("out", {"--positions", folder_ / "places.tsv"}));
+    EXPECT_EQ(result.exit, exit) << text;
+    EXPECT_THAT(result.err, HasSubstr(told)) << text;
+  }
+  EXPECT_EQ(runProgram(command("out", {"--positions", folder_ / "none.tsv"})).exit, 3);
+}
+
 TEST_F(Sync, PlansWithTheRestitutionThatIsGiven) {
   ASSERT_EQ(runProgram(command("out", {"--restitution", "0.4"})).exit, 0);
   EXPECT_EQ(motion("out").at("object").at("restitution"), 0.4);

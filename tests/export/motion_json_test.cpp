@@ -35,6 +35,7 @@ Motion fullMotion() {
   motion.contacts[1].moved = -0.1 / 3;
   motion.dropped = {0.1 + 0.2, 0.4};
   motion.orientations = {{-1, {0, 0.6, 0.8}, {0, 0, 1}}};
+  motion.positions = {{2, {0.1 + 0.2, -1.5}}};
   return motion;
 }
 
@@ -108,6 +109,9 @@ TEST(MotionJson, ComesBackToTheLastBit) {
   EXPECT_EQ(read->contacts[0].moved, 0);
   EXPECT_EQ(read->dropped, original.dropped);
   ASSERT_EQ(read->orientations.size(), 1U);
+  ASSERT_EQ(read->positions.size(), 1U);
+  EXPECT_EQ(read->positions[0].contact, 2);
+  EXPECT_EQ(read->positions[0].place, original.positions[0].place);
   EXPECT_EQ(read->orientations[0].contact, -1);
   EXPECT_EQ(read->orientations[0].body, original.orientations[0].body);
   EXPECT_EQ(read->orientations[0].world, original.orientations[0].world);

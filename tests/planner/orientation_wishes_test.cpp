@@ -37,7 +37,8 @@ Eigen::Vector3d shownAtRest(const Plan& plan, const Eigen::Vector3d& direction) 
 TEST(OrientationWishesTest, ShowAnyFaceOfADieAtNoPrice) {
   const Body& die = test::die();
   PlanRequest request = restingRequest(die);
-  request.symmetry = findSymmetry(die).elements();
+  const SymmetryGroup group = findSymmetry(die);
+  request.symmetry = group.elements();
   const Plan free = planOf(request);
   ASSERT_TRUE(free.solved) << free.failure;
   for (const auto& [name, direction] : die.definition.faces) {
@@ -54,7 +55,8 @@ TEST(OrientationWishesTest, ShowAnyFaceOfADieAtNoPrice) {
 TEST(OrientationWishesTest, TurnTheWholeMotionWhereTheyAreLevel) {
   const Body& die = test::die();
   PlanRequest request = restingRequest(die);
-  request.symmetry = findSymmetry(die).elements();
+  const SymmetryGroup group = findSymmetry(die);
+  request.symmetry = group.elements();
   const Eigen::Vector3d six = die.bodyFromPrincipal.transpose() * die.definition.faces.at("6");
   const Eigen::Vector3d two = die.bodyFromPrincipal.transpose() * die.definition.faces.at("2");
   const Eigen::Vector3d there = Eigen::Vector3d(3, 4, 0).normalized();
@@ -82,7 +84,8 @@ TEST(OrientationWishesTest, AreSearchedForWhereTheBodyHasNoSuchSymmetry) {
 
 TEST(OrientationWishesTest, HoldInTheMiddleToo) {
   PlanRequest request = restingRequest(test::die());
-  request.symmetry = findSymmetry(test::die()).elements();
+  const SymmetryGroup group = findSymmetry(test::die());
+  request.symmetry = group.elements();
   const Eigen::Vector3d corner = Eigen::Vector3d(1, 1, 1).normalized();
   request.orientations = {{1, corner, -Eigen::Vector3d::UnitZ()}};
   const Plan plan = planOf(request);
