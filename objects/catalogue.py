@@ -25,7 +25,7 @@ class Item:
 
 
 # Carpet takes more of a blow, holds better and stops what rolls.
-CARPET = {"restitution": 0.7, "friction": 0.2, "rolling": 0.001}
+CARPET = {"restitution": 0.7, "friction": 0.2, "rolling": 0.001}  # at least
 
 OBJECTS = {
     "d4": Item("Four-sided die", dice.make_d4, 0.0008, "acrylic", 0.75, 0.4,
@@ -79,10 +79,10 @@ OBJECTS = {
                      "shell", ("desk", "carpet")),
     "FruitBasket": Item("Woven fruit basket", kitchen.make_fruit_basket, 0.350, "willow", 0.3, 0.4,
                         "280 mm across, 110 mm high. An even shell: canes are about as thick "
-                        "everywhere.", "shell", ("wood", "carpet")),
+                        "everywhere.", "shell", ("wood", "carpet"), rolling=0.003),
     "Garlic": Item("Bulb of garlic", kitchen.make_garlic, 0.050, "garlic", 0.3, 0.5,
                    "55 mm across, 50 mm high, solid. Merged over 30 ms, as the paper does.",
-                   surfaces=("wood",), gap=0.03),
+                   surfaces=("wood",), rolling=0.001, gap=0.03),
     "Keyboard": Item("Computer keyboard", household.make_keyboard, 0.600, "ABS", 0.35, 0.5,
                      "450 x 150 x 25 mm. Solid of even density, half that of plastic: case, plate "
                      "and circuit board fill it about evenly.", surfaces=("carpet",)),
@@ -99,7 +99,7 @@ OBJECTS = {
                        "85.6 x 54 x 0.76 mm, solid; the print lies flush."),
     "PaperBall": Item("Crumpled paper", papers.make_paper_ball, 0.005, "paper", 0.4, 0.5,
                       "About 70 mm: a sheet of A4. A shell: most of the sheet lies outside.",
-                      "shell"),
+                      "shell", rolling=0.001),
     "Coin": Item("Coin", papers.make_coin, 0.0075, "brass", 0.5, 0.25,
                  "24 x 2 mm. Everyday: hard on hard but thin, so that a blow rings away; smooth.",
                  rolling=0.0001),

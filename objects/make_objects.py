@@ -49,7 +49,7 @@ def write_mesh(folder, name, mesh):
 
 def surface(item, name):
     on_carpet = name == "carpet"
-    rolling = CARPET["rolling"] if on_carpet else item.rolling
+    rolling = max(CARPET["rolling"], 2 * item.rolling) if on_carpet else item.rolling
     return {"restitution": round(item.restitution * (CARPET["restitution"] if on_carpet else 1), 3),
             "friction": round(item.friction + (CARPET["friction"] if on_carpet else 0), 3),
             "rolling_friction": rolling, "spinning_friction": rolling}
@@ -61,7 +61,7 @@ def write_object(folder, name, directions):
     made = {"format": "inverse-foley-object", "version": 1, "name": name, "title": item.title,
             "mesh": name + ".obj", "units": "m", "kind": item.kind, "mass": item.mass,
             "material": item.material,
-            "surfaces": {key: surface(item, key) for key in item.surfaces},
+            "surfaces": {key: surface(item, key) for key in sorted(item.surfaces)},
             "default_surface": item.surfaces[0],
             "sampling": {"cone_degrees": item.cone, "speed": [0.5, 4], "spin": [0, 20]},
             "merge_gap": item.gap}

@@ -31,8 +31,8 @@ def make_fruit_basket():
         return ("wicker", "wicker_pale")[k % 2] if (stake + k) % 2 else "wicker_dark"
 
     wall = cells(grid(1.6), grid(-1.6), material)
-    mesh = merged(wall, hoop(134.5, 104.5, 5.5, 7, "wicker_pale", 48),
-                  hoop(80, 4.6, 4.6, 4.6, "wicker", 36))
+    mesh = merged(wall, hoop(134.5, 104, 5.5, 7, "wicker_pale", 36),
+                  hoop(80, 4, 4.6, 4.6, "wicker", 30))
     floor = [(0, 4, "wicker_dark"), (80, 4, "wicker_dark")]
     circles = [(70, 7.4), (60, 6.6), (50, 7.4), (40, 6.6), (30, 7.4), (20, 6.6), (10, 7.4), (0, 7)]
     floor += [(80, 7, "wicker")] + [
@@ -42,8 +42,8 @@ def make_fruit_basket():
 
 def hoop(radius, height, half_wide, half_high, material, count):
     """A ring of elliptical section about z, mm."""
-    profile = [(radius + half_wide * math.cos(math.pi * k / 4),
-                height + half_high * math.sin(math.pi * k / 4), material) for k in range(8)]
+    profile = [(radius + half_wide * math.cos(math.pi * k / 3),
+                height + half_high * math.sin(math.pi * k / 3), material) for k in range(6)]
     return lathe(profile, count, closed=True)
 
 
@@ -97,7 +97,7 @@ def make_plastic_spoon():
 
 def make_garlic():
     """A bulb of nine cloves, 55 mm across and 50 mm high with its neck; the root's plate below."""
-    cloves, each = 9, 6
+    cloves, each = 9, 4
     profile = [(0, 1.2, 0), (7, 0, 0.1), (9.5, 1.6, 0.2), (17, 3.5, 0.6), (23.5, 9, 0.95),
                (26.6, 16, 1), (26, 22, 1), (22.5, 28, 0.95), (16.5, 33, 0.8), (10, 37, 0.55),
                (6, 40.5, 0.4), (4.2, 45, 0.35), (4.6, 49.5, 0.3), (2.8, 50, 0), (0, 48.5, 0)]
