@@ -62,8 +62,9 @@ OBJECTS = {
     "BeerCanCrushed": Item(
         "Crushed beer can", vessels.make_beer_can, 0.013, "aluminium", 0.35, 0.4,
         "66 mm across, trodden to 70 mm. An even shell of aluminium, empty; lid and bottom are "
-        "thicker than the wall in truth, but have the smaller part of the mass. Merged over 30 ms, "
-        "as the paper does.", "shell", ("wood",), gap=0.03),
+        "thicker than the wall in truth, but have the smaller part of the mass. Rolls badly over "
+        "its folds. Merged over 30 ms, as the paper does.", "shell", ("wood",), rolling=0.002,
+        gap=0.03),
     "Carton": Item("Milk carton", vessels.make_carton, 0.035, "cardboard", 0.3, 0.4,
                    "95 x 95 x 200 mm with its gable, empty: an even shell of coated board.",
                    "shell"),
@@ -79,10 +80,12 @@ OBJECTS = {
                      "shell", ("desk", "carpet")),
     "FruitBasket": Item("Woven fruit basket", kitchen.make_fruit_basket, 0.350, "willow", 0.3, 0.4,
                         "280 mm across, 110 mm high. An even shell: canes are about as thick "
-                        "everywhere.", "shell", ("wood", "carpet"), rolling=0.003),
+                        "everywhere. Rolls badly, from cane to cane, which are 25 mm apart.",
+                        "shell", ("wood", "carpet"), rolling=0.02),
     "Garlic": Item("Bulb of garlic", kitchen.make_garlic, 0.050, "garlic", 0.3, 0.5,
-                   "55 mm across, 50 mm high, solid. Merged over 30 ms, as the paper does.",
-                   surfaces=("wood",), rolling=0.001, gap=0.03),
+                   "55 mm across, 50 mm high, solid. Rolls badly, from clove to clove. Merged "
+                   "over 30 ms, as the paper does.",
+                   surfaces=("wood",), rolling=0.005, gap=0.03),
     "Keyboard": Item("Computer keyboard", household.make_keyboard, 0.600, "ABS", 0.35, 0.5,
                      "450 x 150 x 25 mm. Solid of even density, half that of plastic: case, plate "
                      "and circuit board fill it about evenly.", surfaces=("carpet",)),
@@ -110,8 +113,8 @@ OBJECTS = {
                    "16 mm. Everyday: glass gives back nearly all, a desk of wood about half of the "
                    "energy; smooth, rolls far.", rolling=0.0001),
     "PingPongBall": Item("Table tennis ball", toys.make_ping_pong_ball, 0.0027, "celluloid", 0.87,
-                         0.3, "40 mm, a shell. Everyday: the rules ask for 24 to 26 cm after a fall "
-                         "of 30.5 cm on steel (0.89 to 0.92); a desk takes a little more.",
+                         0.3, "40 mm, a shell. Everyday: the rules ask for 24 to 26 cm after a "
+                         "fall of 30.5 cm on steel (0.89 to 0.92); a desk takes a little more.",
                          "shell"),
     "Pencil": Item("Pencil", papers.make_pencil, 0.005, "wood", 0.45, 0.35,
                    "175 mm, 6.8 mm across flats, solid of even density. Everyday: lacquered wood "

@@ -49,7 +49,7 @@ def write_mesh(folder, name, mesh):
 
 def surface(item, name):
     on_carpet = name == "carpet"
-    rolling = max(CARPET["rolling"], 2 * item.rolling) if on_carpet else item.rolling
+    rolling = max(CARPET["rolling"], item.rolling) if on_carpet else item.rolling
     return {"restitution": round(item.restitution * (CARPET["restitution"] if on_carpet else 1), 3),
             "friction": round(item.friction + (CARPET["friction"] if on_carpet else 0), 3),
             "rolling_friction": rolling, "spinning_friction": rolling}

@@ -94,7 +94,8 @@ def make_tape_dispenser():
         lambda p: (p[0], -p[2], p[1])))
     teeth = [(-13, 0)] + [(-13 + 26 * k / 18, 4.6 if k % 2 else 2.2) for k in range(19)] + [(13, 0)]
     blade = plate([millimetres(teeth)], -0.6 * MM, 0.6 * MM, "chrome").moved(
-        lambda p: (53.5 * MM + 0.9 * p[1] + 0.45 * p[2], -p[0], 29.8 * MM + 0.45 * p[1] - 0.9 * p[2]))
+        lambda p: (53.5 * MM + 0.9 * p[1] + 0.45 * p[2], -p[0],
+                   29.8 * MM + 0.45 * p[1] - 0.9 * p[2]))
     return merged(*parts, blade), {"roll": (0.0, 0.0, 1.0)}
 
 

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
 """What lies on a desk."""
-import math
-
 from geometry import Mesh
 from glyphs import text
 from solids import MM

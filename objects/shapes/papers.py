@@ -4,7 +4,7 @@ import math
 import random
 
 from contours import blended, block, cut, disc, outline, polygon
-from geometry import Mesh, add, circle, dot, mean, scale, unit
+from geometry import Mesh, add, circle, dot, scale, unit
 from glyphs import text
 from solids import MM, ball, cuboid, loft, merged, millimetres, plate
 
@@ -26,8 +26,8 @@ def make_credit_card():
                       "card_text"))
     front.append((text("MEMBER", 3.0 * MM, (-19 * MM, -19 * MM), weight=0.15), "card_text"))
     left = outline(cut(disc(27, -18.5, 6), disc(33, -18.5, 6.2)), (19, -26, 41, -11), 0.6, 0.05)[0]
-    front += [([millimetres(left)], "card_red"),
-              ([circle(6 * MM, 28, (33 * MM, -18.5 * MM))], "card_orange")]
+    front += [([millimetres(left)], "card_green"),
+              ([circle(6 * MM, 28, (33 * MM, -18.5 * MM))], "card_yellow")]
     front.append((text("BANK", 5.4 * MM, (24 * MM, 18 * MM), weight=0.2), "card_text"))
     back = [([box(-42.2, 12, 42.2, 22)], "stripe"), ([box(-36, -1, 18, 8)], "card_text"),
             ([box(22, 0, 34, 7)], "white")]

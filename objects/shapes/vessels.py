@@ -4,7 +4,7 @@ import math
 
 from geometry import Mesh, add, cross, scale, unit
 from glyphs import text
-from solids import MM, cells, ellipse, lathe, loft, merged, millimetres, plate, tube
+from solids import MM, ellipse, lathe, merged, millimetres, plate, tube
 
 
 def handle(path, half_wide, half_thick, material, count=10):
@@ -126,7 +126,8 @@ def make_carton():
     middle = scale((0, -a * 0.56, wall + (ridge - wall) * 0.44), MM)
     along = (1.0, 0.0, 0.0)
     across = cross(slope, along)
-    cap = lathe([(0, -1, "cap_red"), (13, -1, "cap_red"), (13, 8, "cap_red"), (11.5, 9.5, "cap_red"),
+    cap = lathe([(0, -1, "cap_red"), (13, -1, "cap_red"), (13, 8, "cap_red"),
+                 (11.5, 9.5, "cap_red"),
                  (0, 9.5, "cap_red")], 20).moved(
         lambda p: add(middle, add(scale(along, p[0]), add(scale(across, p[1]),
                                                           scale(slope, p[2])))))
