@@ -160,20 +160,30 @@ def flip_edges(triangles, points, fixed):
 
 
 def clip_ears(ring, points):
-    triangles = []
+    """Cuts off the best ear again and again. What is known of a corner (the shape of its ear, or a
+    point that lies in it) holds until a neighbour, or that point, is gone."""
+    triangles, known = [], {}
     ring = list(ring)
+
+    def judge(i):
+        ia, ib, ic = ring[i - 1], ring[i], ring[(i + 1) % len(ring)]
+        a, b, c = points[ia], points[ib], points[ic]
+        if turn(a, b, c) <= 0:
+            return None, None
+        for j in ring:
+            if j not in (ia, ib, ic) and covers((a, b, c), points[j]) and \
+                    points[j] not in (a, b, c):
+                return None, j
+        return quality(points, (ia, ib, ic)), None
+
     while len(ring) > 3:
         best = None
         for i in range(len(ring)):
-            ia, ib, ic = ring[i - 1], ring[i], ring[(i + 1) % len(ring)]
-            a, b, c = points[ia], points[ib], points[ic]
-            area = turn(a, b, c)
-            if area <= 0 or any(
-                    j not in (ia, ib, ic) and points[j] not in (a, b, c) and
-                    covers((a, b, c), points[j]) for j in ring):
-                continue
-            shape = quality(points, (ia, ib, ic))
-            if best is None or shape > best[0]:
+            key = (ring[i - 1], ring[i], ring[(i + 1) % len(ring)])
+            if key not in known:
+                known[key] = judge(i)
+            shape = known[key][0]
+            if shape is not None and (best is None or shape > best[0]):
                 best = (shape, i)
         if best is None:
             # What is left has no area: points in one line, and the two sides of bridges.
@@ -183,8 +193,11 @@ def clip_ears(ring, points):
                 raise ValueError("no ear: the outline crosses itself")
             best = (0, sizes.index(min(sizes)))
         i = best[1]
+        gone = ring[i]
         triangles.append((ring[i - 1], ring[i], ring[(i + 1) % len(ring)]))
         del ring[i]
+        if gone not in ring:
+            known = {key: value for key, value in known.items() if value[1] != gone}
     triangles.append(tuple(ring))
     return triangles
 
@@ -263,15 +276,30 @@ class Mesh:
 
     def strip(self, lower, upper, material):
         """Quadrilaterals between two closed rings of as many points, seen from outside with
-        `lower` running counter-clockwise about the axis that leads to `upper`."""
+        `lower` running counter-clockwise about the axis that leads to `upper`. material: one, or
+        a function of the quadrilateral's number."""
         count = len(lower)
         for i in range(count):
             j = (i + 1) % count
-            self.quad(lower[i], lower[j], upper[j], upper[i], material)
+            self.quad(lower[i], lower[j], upper[j], upper[i],
+                      material(i) if callable(material) else material)
 
     def quad(self, a, b, c, d, material):
         self.triangle(a, b, c, material)
         self.triangle(a, c, d, material)
+
+    def add(self, other, move=lambda p: p):
+        """Takes another mesh in, each point carried to move(point), which keeps right and left."""
+        ids = [len(self.vertices) + i for i in range(len(other.vertices))]
+        self.vertices += [move(p) for p in other.vertices]
+        for material, triangles in other.groups.items():
+            self.groups.setdefault(material, []).extend(
+                tuple(ids[i] for i in triangle) for triangle in triangles)
+
+    def moved(self, move):
+        result = Mesh()
+        result.add(self, move)
+        return result
 
     def volume(self):
         v = self.vertices

@@ -2,11 +2,11 @@
 """Outlines of digits and letters, traced from strokes of even width.
 
 A glyph is a set of strokes in a box 0..W by 0..1. Its outline is the curve at half the stroke's
-width from the strokes, found by marching squares: any glyph, with any holes, gives closed loops
-that do not cross.
+width from the strokes.
 """
 import math
 
+from contours import marching_squares, simplified
 from geometry import signed_area
 
 
@@ -29,9 +29,23 @@ STROKES = {
     "7": [[(0.0, 1.0), (0.58, 1.0), (0.2, 0.0)]],
     "8": [arc(0.3, 0.755, 0.25, 0.245, 0, 360, 24), arc(0.3, 0.255, 0.3, 0.255, 0, 360, 24)],
     "A": [[(0.0, 0.0), (0.34, 1.0), (0.68, 0.0)], [(0.12, 0.33), (0.56, 0.33)]],
+    "B": [[(0.0, 0.0), (0.0, 1.0), (0.28, 1.0)] + arc(0.28, 0.76, 0.26, 0.24, 90, -90) +
+          [(0.0, 0.52)], [(0.28, 0.52)] + arc(0.3, 0.26, 0.3, 0.26, 90, -90) + [(0.0, 0.0)]],
+    "C": [arc(0.36, 0.5, 0.36, 0.5, 48, 312, 22)],
+    "D": [[(0.0, 0.0), (0.0, 1.0), (0.22, 1.0)] + arc(0.22, 0.5, 0.42, 0.5, 90, -90) +
+          [(0.0, 0.0)]],
     "E": [[(0.56, 1.0), (0.0, 1.0), (0.0, 0.0), (0.56, 0.0)], [(0.0, 0.52), (0.46, 0.52)]],
+    "F": [[(0.56, 1.0), (0.0, 1.0), (0.0, 0.0)], [(0.0, 0.52), (0.46, 0.52)]],
+    "I": [[(0.0, 0.0), (0.0, 1.0)]],
+    "K": [[(0.0, 0.0), (0.0, 1.0)], [(0.56, 1.0), (0.0, 0.42)], [(0.2, 0.62), (0.6, 0.0)]],
+    "L": [[(0.0, 1.0), (0.0, 0.0), (0.5, 0.0)]],
+    "M": [[(0.0, 0.0), (0.0, 1.0), (0.38, 0.3), (0.76, 1.0), (0.76, 0.0)]],
+    "N": [[(0.0, 0.0), (0.0, 1.0), (0.6, 0.0), (0.6, 1.0)]],
+    "O": [arc(0.38, 0.5, 0.38, 0.5, 0, 360, 28)],
     "R": [[(0.0, 0.0), (0.0, 1.0), (0.3, 1.0)] + arc(0.32, 0.74, 0.26, 0.26, 90, -90) +
           [(0.0, 0.48)], [(0.3, 0.48), (0.6, 0.0)]],
+    "T": [[(0.0, 1.0), (0.66, 1.0)], [(0.33, 1.0), (0.33, 0.0)]],
+    "Y": [[(0.0, 1.0), (0.32, 0.5), (0.64, 1.0)], [(0.32, 0.5), (0.32, 0.0)]],
     "S": [arc(0.29, 0.75, 0.27, 0.25, 40, 270) + arc(0.29, 0.25, 0.29, 0.25, 90, -140)],
 }
 STROKES["9"] = [[(0.62 - x, 1 - y) for x, y in stroke] for stroke in STROKES["6"]]
@@ -66,75 +80,14 @@ def distance(p, strokes):
     return math.sqrt(best)
 
 
-def crossing(a, b, strokes, half):
-    """The point between a (inside) and b (outside) where the outline passes."""
-    for _ in range(12):
-        m = ((a[0] + b[0]) / 2, (a[1] + b[1]) / 2)
-        if distance(m, strokes) < half:
-            a = m
-        else:
-            b = m
-    return ((a[0] + b[0]) / 2, (a[1] + b[1]) / 2)
-
-
 def outlines(strokes, half, cell=0.045):
-    """Loops at `half` from the strokes, by marching squares."""
+    """Loops at `half` from the strokes."""
     xs = [p[0] for s in strokes for p in s]
     ys = [p[1] for s in strokes for p in s]
     x0, y0 = min(xs) - half - 1.37 * cell, min(ys) - half - 1.41 * cell
     nx = int((max(xs) + half - x0) / cell) + 3
     ny = int((max(ys) + half - y0) / cell) + 3
-    grid = {(i, j): (x0 + i * cell, y0 + j * cell) for i in range(nx) for j in range(ny)}
-    filled = {k: distance(p, strokes) < half for k, p in grid.items()}
-    points, following = {}, {}
-
-    def edge(a, b):
-        key = (min(a, b), max(a, b))
-        if key not in points:
-            inner, outer = (a, b) if filled[a] else (b, a)
-            points[key] = crossing(grid[inner], grid[outer], strokes, half)
-        return key
-
-    for i in range(nx - 1):
-        for j in range(ny - 1):
-            ring = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)]
-            # Each run of filled corners is cut off on its own: two opposite ones stay apart.
-            for k in range(4):
-                if filled[ring[k]] and not filled[ring[k - 1]]:
-                    end = k
-                    while filled[ring[(end + 1) % 4]]:
-                        end += 1
-                    start = edge(ring[k - 1], ring[k])
-                    following[start] = edge(ring[end % 4], ring[(end + 1) % 4])
-    loops = []
-    while following:
-        start = next(iter(following))
-        loop, key = [], start
-        while key in following:
-            loop.append(points[key])
-            key = following.pop(key)
-        loops.append(loop)
-    return loops
-
-
-def simplified(loop, tolerance):
-    """Douglas-Peucker on a closed loop."""
-    far = max(range(len(loop)), key=lambda i: (loop[i][0] - loop[0][0]) ** 2 +
-              (loop[i][1] - loop[0][1]) ** 2)
-
-    def reduce(points):
-        (ax, ay), (bx, by) = points[0], points[-1]
-        length = math.hypot(bx - ax, by - ay)
-        worst, at = 0, 0
-        for i in range(1, len(points) - 1):
-            d = abs((bx - ax) * (points[i][1] - ay) - (by - ay) * (points[i][0] - ax)) / length
-            if d > worst:
-                worst, at = d, i
-        if worst <= tolerance:
-            return [points[0]]
-        return reduce(points[:at + 1]) + reduce(points[at:])
-
-    return reduce(loop[:far + 1]) + reduce(loop[far:] + loop[:1])
+    return marching_squares(lambda p: distance(p, strokes) - half, x0, y0, nx, ny, cell)
 
 
 def text(letters, height, centre=(0.0, 0.0), angle=0.0, weight=0.16, mark=False):

@@ -19,15 +19,19 @@ using ifa::Body;
 
 struct Options {
   std::vector<std::string> objects;
+  std::string surface;
   bool measureOnly = false, dryRun = false;
   ifa::CalibrationSettings settings;
 };
 
 void readOptions(CLI::App& app, Options& options) {
   app.add_option("OBJECT", options.objects, "objects (default: all that there are)");
+  app.add_option("--surface", options.surface, "this one only");
   app.add_option("-n", options.settings.simulations, "simulations per measurement");
   app.add_option("--seed", options.settings.seed);
   app.add_option("--tolerance", options.settings.tolerance, "share of the target");
+  app.add_option("--lowest-restitution", options.settings.lowestRestitution, "of the search");
+  app.add_option("--highest-restitution", options.settings.highestRestitution, "of the search");
   app.add_flag("--measure", options.measureOnly, "keep restitution and friction, measure J_ref");
   app.add_flag("--dry-run", options.dryRun, "print only");
 }
@@ -70,6 +74,7 @@ ifa::Result<void> calibrateObject(const std::string& name, const Options& option
   auto definition = ifa::readObjectFile(*path);
   if (!definition) return tl::unexpected(definition.error());
   for (auto& [surface, properties] : definition->surfaces) {
+    if (!options.surface.empty() && surface != options.surface) continue;
     const ifa::PaperRow* row = findRow(definition->name, surface);
     const ifa::Calibration c = calibrate(*body, properties, row, options);
     printRow(definition->name, surface, row, c);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/portable_math.h"
 #include "dynamics/energy.h"
 #include "dynamics/simulator.h"
 #include "planner/silent_search.h"
