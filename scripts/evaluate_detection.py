@@ -20,7 +20,7 @@ import sys
 
 MERGE_GAP = 0.010
 END_TOLERANCE = 0.040
-RISES = [4, 4.5, 5, 5.25, 5.5, 6, 6.5, 7, 8]  # what --cross chooses from, dB
+RISES = [3, 3.5, 4, 4.5, 5, 5.25, 5.5, 5.75, 6, 6.5, 7, 8]  # what --cross chooses from, dB
 METHODS = ["energy", "hfc", "complex", "phase", "specdiff", "kl", "mkl", "specflux"]
 THRESHOLDS = [0.1, 0.3, 0.6, 1.0]
 
