@@ -3,7 +3,7 @@
 """Scores `ifa detect` against labelled sounds, beside aubio's onset detectors (docs/detection.md).
 
     scripts/evaluate_detection.py build/release/bin/ifa SOUNDS [-v] [--aubio [METHOD...]] [--cross]
-        [--confidence]
+        [--cross-windows] [--confidence]
 
 SOUNDS holds one folder per kind of sound, with NAME.wav and NAME.txt anywhere below. Labels and
 detected contacts are both merged at 10 ms before they are compared. In sounds that were made
@@ -20,8 +20,10 @@ import sys
 
 MERGE_GAP = 0.010
 END_TOLERANCE = 0.040
-RISES = [4, 4.5, 5, 5.25, 5.5, 6, 6.5, 7, 8]  # what --cross chooses from, dB
+RISES = [3, 3.5, 4, 4.5, 5, 5.25, 5.5, 5.75, 6, 6.5, 7, 8]  # what --cross chooses from, dB
 METHODS = ["energy", "hfc", "complex", "phase", "specdiff", "kl", "mkl", "specflux"]
+WINDOWS = [["--after", str(after), "--before", str(before)] for after in (0.0015, 0.002, 0.0025, 0.003)
+           for before in (0.006, 0.008, 0.010)]  # and --cross-windows
 THRESHOLDS = [0.1, 0.3, 0.6, 1.0]
 
 
@@ -173,17 +175,19 @@ def print_aubio(cases, methods):
         print(best.row(f"aubio {method}, -t {threshold}"))
 
 
-def print_cross(program, cases):
-    """The smallest rise chosen on the even cases of the list and reported on the odd ones, and back."""
+def print_cross(program, cases, windows):
+    """What suits the even cases of the list best, reported on the odd ones, and back."""
     halves = [cases[0::2], cases[1::2]]
-    scores = [[scored(half, in_parallel(lambda c, r=rise: detect(program, c.path, ["--min-rise", str(r)]),
-                                        half)) for rise in RISES] for half in halves]
-    print("\nF at 10 ms over --min-rise: "
-          + ", ".join(f"{r}: {a.f(0.010):.3f} {b.f(0.010):.3f}" for r, a, b in zip(RISES, *scores)))
+    settings = [["--min-rise", str(rise), *window] for window in windows for rise in RISES]
+    scores = [[scored(half, in_parallel(lambda c, o=options: detect(program, c.path, o), half))
+               for options in settings] for half in halves]
+    if len(windows) == 1:
+        print("\nF at 10 ms over --min-rise: "
+              + ", ".join(f"{r}: {a.f(0.010):.3f} {b.f(0.010):.3f}" for r, a, b in zip(RISES, *scores)))
     print(HEADER)
     for chosen, name in ((0, "even"), (1, "odd")):
-        best = max(range(len(RISES)), key=lambda i: scores[chosen][i].f(0.010))
-        print(scores[chosen][best].row(f"{name} half, chosen here: {RISES[best]} dB"))
+        best = max(range(len(settings)), key=lambda i: scores[chosen][i].f(0.010))
+        print(scores[chosen][best].row(f"{name} half, chosen here: {' '.join(settings[best])}"))
         print(scores[1 - chosen][best].row("the other half with it"))
 
 
@@ -215,6 +219,7 @@ def main():
     parser.add_argument("-v", "--verbose", action="store_true", help="a row for every sound")
     parser.add_argument("--aubio", nargs="*", choices=METHODS, help="the same of aubioonset (all methods)")
     parser.add_argument("--cross", action="store_true", help="choose on one half, report on the other")
+    parser.add_argument("--cross-windows", action="store_true", help="the same, --after and --before too")
     parser.add_argument("--confidence", action="store_true", help="how often a confidence is right")
     parser.add_argument("options", nargs="*", help="for ifa detect, after --")
     arguments = parser.parse_args()
@@ -227,7 +232,9 @@ def main():
     if arguments.aubio is not None:
         print_aubio(cases, arguments.aubio or METHODS)
     if arguments.cross:
-        print_cross(arguments.program, cases)
+        print_cross(arguments.program, cases, [[]])
+    if arguments.cross_windows:
+        print_cross(arguments.program, cases, WINDOWS)
     if arguments.confidence:
         print_confidence(arguments.program, cases)
 

@@ -85,6 +85,16 @@ void addDetectCommand(CLI::App& app, CommandContext& context) {
                    "dB under the loudest contact where listening stops")
       ->check(numberFrom(1, 100))
       ->capture_default_str();
+  command
+      ->add_option("--after", options->settings.after,
+                   "s after a moment in which an attack's energy is taken")
+      ->check(numberFrom(0.0005, 0.1))
+      ->capture_default_str();
+  command
+      ->add_option("--before", options->settings.before,
+                   "s before it that this is compared with; longer hides more echoes")
+      ->check(numberFrom(0.0005, 0.1))
+      ->capture_default_str();
   command->callback([options, &context] {
     context.action = [options, &context] { return runDetect(*options, context); };
   });

@@ -19,7 +19,8 @@ struct Novelty {
   std::vector<double> level;  ///< mean square after the hop, summed over the bands
 };
 
-/// What a band never falls under for long: the lowest tenth of its energies.
+/// What was there before the sound began, as far as can be told: the lowest tenth of a band's
+/// energies. So a recording that begins amid noise does not begin with an attack.
 double background(const BandEnergy& band, std::ptrdiff_t window) {
   std::vector<double> energies(band.hops());
   for (std::size_t k = 0; k < energies.size(); ++k) {
@@ -29,6 +30,14 @@ double background(const BandEnergy& band, std::ptrdiff_t window) {
   const auto tenth = energies.begin() + static_cast<std::ptrdiff_t>(energies.size() / 10);
   std::nth_element(energies.begin(), tenth, energies.end());
   return *tenth;
+}
+
+/// Mean energy over the hops before `now`, with the background where the sound has not begun.
+double meanBefore(const BandEnergy& band, std::ptrdiff_t now, std::ptrdiff_t hops,
+                  double background) {
+  const auto known = static_cast<double>(std::min(now, hops));
+  const auto all = static_cast<double>(hops);
+  return (band.mean(now - hops, now) * known + background * (all - known)) / all;
 }
 
 std::vector<double> levels(const BandEnergies& energies, std::ptrdiff_t window) {
@@ -43,7 +52,7 @@ std::vector<double> levels(const BandEnergies& energies, std::ptrdiff_t window) 
 }
 
 /// Ratio of the energy just after each hop to that just before, in dB, falls counted as none, mean
-/// over the bands. Each band's floor keeps what nobody hears from looking like a rise.
+/// over the bands. The floor keeps what nobody hears from looking like a rise.
 Novelty noveltyOf(const BandEnergies& energies, const DetectorSettings& settings) {
   const auto after = energies.hopsIn(settings.after), before = energies.hopsIn(settings.before);
   Novelty novelty;
@@ -51,14 +60,14 @@ Novelty noveltyOf(const BandEnergies& energies, const DetectorSettings& settings
   const double loudest = *std::max_element(novelty.level.begin(), novelty.level.end());
   const auto bands = static_cast<double>(energies.bands.size());
   // Ten decibels under the range, so that a contact at its end still stands out.
-  const double inaudible = loudest / bands * ratioOf(-settings.range - 10);
+  const double floor = loudest / bands * ratioOf(-settings.range - 10);
   novelty.rise.assign(energies.hops(), 0.0);
   for (const BandEnergy& band : energies.bands) {
-    const double floor = std::max(inaudible, background(band, before));
+    const double unheard = background(band, before);
     for (std::size_t k = 0; k < novelty.rise.size(); ++k) {
       const auto now = static_cast<std::ptrdiff_t>(k);
       const double ratio =
-          (band.mean(now, now + after) + floor) / (band.mean(now - before, now) + floor);
+          (band.mean(now, now + after) + floor) / (meanBefore(band, now, before, unheard) + floor);
       if (ratio > 1) novelty.rise[k] += decibels(ratio) / bands;
     }
   }
@@ -80,6 +89,20 @@ std::vector<std::size_t> peaks(const Novelty& novelty, double minRise, double mi
     if (highest - begin == static_cast<std::ptrdiff_t>(k)) found.push_back(k);
   }
   return found;
+}
+
+/// Where contacts begin. The last one is the softest, and nothing loud comes after it that echoes:
+/// what follows the last attack may rise a little less.
+std::vector<std::size_t> attacksIn(const Novelty& novelty, double minLevel, std::ptrdiff_t interval,
+                                   const DetectorSettings& settings) {
+  auto attacks = peaks(novelty, settings.minRise, minLevel, interval);
+  if (attacks.empty()) return attacks;
+  const std::size_t last = attacks.back();
+  for (const std::size_t k :
+       peaks(novelty, settings.minRise - settings.lastEase, minLevel, interval)) {
+    if (k > last) attacks.push_back(k);
+  }
+  return attacks;
 }
 
 /// Logistic regression of what was true among rises from 3 dB on in recordings (docs/detection.md):
@@ -128,19 +151,30 @@ double rattleEnd(const std::vector<double>& smallRises, double start,
   return end - start >= settings.minDuration ? end : start;
 }
 
-/// Makes the last contacts one with what goes on between them: from the end back, each that does
-/// not stand out clearly and has so many small rises before it that they are no contacts of their
-/// own.
+/// Whether the object keeps to the surface between two contacts: small rises as dense as the merge
+/// filter's gap, or a few of them and never a flight between.
+bool rattlesBetween(const std::vector<double>& smallRises, double first, double second,
+                    const DetectorSettings& settings) {
+  int between = 0;
+  double before = first, longest = 0;
+  for (const double time : smallRises) {
+    if (time <= first || time >= second) continue;
+    longest = std::max(longest, time - before);
+    before = time;
+    ++between;
+  }
+  longest = std::max(longest, second - before);
+  return second - first <= settings.denseGap * (between + 1) ||
+         (between >= settings.rattleFill && longest <= settings.rattlePause);
+}
+
+/// Makes the last contacts one with what goes on between them, from the end back.
 void joinRattle(std::vector<DetectedContact>& contacts, const std::vector<double>& smallRises,
                 const DetectorSettings& settings) {
-  while (contacts.size() > 1 && contacts.back().rise < settings.clearRise) {
+  while (contacts.size() > 1) {
     const DetectedContact last = contacts.back();
     DetectedContact& previous = contacts[contacts.size() - 2];
-    const auto between = std::count_if(smallRises.begin(), smallRises.end(), [&](double time) {
-      return time > previous.start && time < last.start;
-    });
-    const double meanGap = (last.start - previous.start) / static_cast<double>(between + 1);
-    if (meanGap > settings.rattleMeanGap) return;
+    if (!rattlesBetween(smallRises, previous.start, last.start, settings)) return;
     previous.end = last.end;
     contacts.pop_back();
   }
@@ -160,8 +194,8 @@ Result<std::vector<DetectedContact>> detectContacts(const Sound& sound,
   const double minLevel = loudest * ratioOf(-settings.range);
   const auto interval = energies.hopsIn(settings.minInterval);
   auto contacts =
-      contactsAt(peaks(novelty, settings.minRise, minLevel, interval), novelty, loudest,
-                 energies.hop, static_cast<std::size_t>(energies.hopsIn(settings.after)));
+      contactsAt(attacksIn(novelty, minLevel, interval, settings), novelty, loudest, energies.hop,
+                 static_cast<std::size_t>(energies.hopsIn(settings.after)));
   if (contacts.empty()) return nothing;
   dropLeadIn(contacts, settings.leadIn);
   std::vector<double> smallRises;

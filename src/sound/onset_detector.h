@@ -20,7 +20,8 @@ struct DetectedContact {
 
 /// All that can be tuned; docs/detection.md tells how the defaults were found.
 struct DetectorSettings {
-  double minRise = 5.25;       ///< dB; a smaller rise is no attack. Higher: fewer, surer contacts
+  double minRise = 5.5;        ///< dB; a smaller rise is no attack. Higher: fewer, surer contacts
+  double lastEase = 0.5;       ///< dB less are asked of what comes after the last such attack
   double range = 40;           ///< dB under the loudest contact where listening stops
   double after = 0.002;        ///< s after a moment in which the attack's energy is taken
   double before = 0.008;       ///< s before it that it is compared with; longer hides more echoes
@@ -28,9 +29,10 @@ struct DetectorSettings {
   double leadIn = 30;          ///< dB under the loudest contact; the first one is not softer
   double rattleRise = 3;       ///< dB; rises that, after the last contact, keep a rattle going
   double rattleGap = 0.030;    ///< s; a longer pause between them ends it
-  double rattleMeanGap = 0.0125;  ///< s; contacts at the end with more rises between are one rattle
-  double clearRise = 10;          ///< dB; a contact that rises so much begins one and joins none
-  double minDuration = 0.020;     ///< s; a shorter rattle is none: the last contact is discrete
+  double denseGap = 0.010;     ///< s; contacts at the end with a rise as often are one rattle
+  double rattlePause = 0.070;  ///< s; so are those with no longer pause between the rises ...
+  int rattleFill = 3;          ///< ... that part them, if these are as many
+  double minDuration = 0.020;  ///< s; a shorter rattle is none: the last contact is discrete
 };
 
 /// Contacts in order of time; only the last one may be a region (a rattle or roll at the end, which

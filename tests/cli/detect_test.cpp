@@ -111,6 +111,21 @@ TEST_F(Detect, OutputThatCannotBeWrittenIsBadInput) {
   EXPECT_THAT(folder_.names(), SizeIs(1));
 }
 
+TEST_F(Detect, ALongerTimeBeforeTakesMoreOfTheLastClickIn) {
+  writeClicks(folder_ / "pair.wav", {{0.20, 0.9}, {0.24, 0.6}}, 0.5);
+  const auto secondRise = [&](const std::string& before) {
+    const auto result = runProgram({"detect", folder_ / "pair.wav", "--before", before});
+    const auto lines = linesOf(result.out);
+    EXPECT_THAT(lines, SizeIs(3)) << result.out << result.err;
+    double start = 0, level = 0, rise = 0;
+    std::string end;
+    std::istringstream(lines.back()) >> start >> end >> level >> rise;
+    EXPECT_NEAR(start, 0.24, 0.002);
+    return rise;
+  };
+  EXPECT_GT(secondRise("0.008"), secondRise("0.045") + 3);
+}
+
 TEST_F(Detect, TheSoundIsNotOverwritten) {
   const auto sound = readText(folder_ / "a.wav");
   const auto result = runProgram({"detect", folder_ / "a.wav", "-o", folder_ / "a.wav"});
@@ -125,6 +140,8 @@ TEST_F(Detect, CallsThatMakeNoSenseAreUsageErrors) {
                                                        {"detect", sound, sound},
                                                        {"detect", sound, "--min-rise", "0"},
                                                        {"detect", sound, "--range", "nan"},
+                                                       {"detect", sound, "--after", "0"},
+                                                       {"detect", sound, "--before", "1"},
                                                        {"detect", sound, "-o"}};
   for (const auto& call : calls) {
     const auto result = runProgram(call);

@@ -128,6 +128,61 @@ TEST(DetectContacts, ARattleSwallowsWhatIsInIt) {
   EXPECT_NEAR(contacts->back().end, 0.45 + 0.009 * 15, 0.03);
 }
 
+/// Three knocks, each followed by soft hits, on something that rolls (noise) after two real
+/// contacts.
+std::vector<Burst> knocksAndSoftHits(double knockGap, double softGap) {
+  std::vector<Burst> bursts{{0.1, 0.8}, {0.3, 0.5}};
+  for (int i = 0; i < 3; ++i) {
+    const double time = 0.45 + knockGap * i;
+    bursts.push_back({time, 0.03});
+    for (int j = 1; j <= 4; ++j) bursts.push_back({time + softGap * j, 0.017});
+  }
+  return bursts;
+}
+
+TEST(DetectContacts, KnocksWithSoftHitsBetweenAreOneRattle) {
+  const auto contacts =
+      detectContacts(test::burstsInNoise(knocksAndSoftHits(0.1, 0.02), 1, 44100, 0.01));
+  ASSERT_TRUE(contacts);
+  ASSERT_EQ(contacts->size(), 3U);
+  EXPECT_NEAR(contacts->back().start, 0.45, 0.001);
+  EXPECT_NEAR(contacts->back().end, 0.65 + 0.08, 0.025);
+}
+
+TEST(DetectContacts, KnocksWithAFlightBetweenAreTold) {
+  // The same, but nothing touches in the last 0.1 s before a knock.
+  const auto contacts =
+      detectContacts(test::burstsInNoise(knocksAndSoftHits(0.18, 0.02), 1.2, 44100, 0.01));
+  ASSERT_TRUE(contacts);
+  ASSERT_EQ(contacts->size(), 5U);
+  EXPECT_NEAR(contacts->back().start, 0.45 + 0.36, 0.001);
+}
+
+TEST(DetectContacts, WhatComesAfterTheLastAttackMayRiseLess) {
+  DetectorSettings settings;
+  settings.minRise = 16;
+  settings.lastEase = 0;
+  // Rises of about 30 dB, but for the second and the last.
+  const auto sound =
+      test::burstsInNoise({{0.1, 0.9}, {0.2, 0.1}, {0.3, 0.9}, {0.4, 0.1}}, 0.6, 44100, 0.02);
+  const auto strict = detectContacts(sound, settings);
+  settings.lastEase = 8;
+  const auto eased = detectContacts(sound, settings);
+  ASSERT_TRUE(strict && eased);
+  ASSERT_EQ(strict->size(), 2U);
+  ASSERT_EQ(eased->size(), 3U);
+  EXPECT_NEAR(eased->back().start, 0.4, 0.001);
+}
+
+TEST(DetectContacts, ARecordingThatBeginsAmidNoiseDoesNotBeginWithAContact) {
+  for (const int rate : {16000, 44100}) {
+    const auto contacts = detectContacts(test::burstsInNoise({{0.3}, {0.5}}, 1, rate, 0.1));
+    ASSERT_TRUE(contacts);
+    EXPECT_EQ(contacts->size(), 2U);
+    EXPECT_NEAR(contacts->front().start, 0.3, 0.001);
+  }
+}
+
 TEST(DetectContacts, TellsContactsFifteenMillisecondsApart) {
   const std::vector<Burst> bursts{{0.1, 0.8}, {0.115, 0.5}, {0.13, 0.6}, {0.145, 0.3}, {0.3, 0.4}};
   const auto contacts = detectContacts(test::burstsInNoise(bursts, 0.6, 44100, 1e-4));
