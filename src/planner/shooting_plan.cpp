@@ -105,9 +105,11 @@ std::string failureOf(const ShootingProblem& problem, const ShootingSearch& sear
     if (!problem.request.orientations.empty()) {
       return "no motion that was found lies as --orient asks";
     }
+    const double score = farthest->log.score(static_cast<int>(events.size()));
+    if (score >= leastScore) return "the search ended before its motions were looked at";
     return fmt::format(
-        "the best motion's Score is {:.2f}, under {:.1f}: marks or object do not fit",
-        farthest->log.score(static_cast<int>(events.size())), leastScore);
+        "the best motion's Score is {:.2f}, under {:.1f}: marks or object do not fit", score,
+        leastScore);
   }
   const bool terminal = level + 2 == events.size() && problem.request.signature.terminal;
   return fmt::format("contact {} at {:.3f} s cannot be met: {}", level + 2, events[level + 1].time,

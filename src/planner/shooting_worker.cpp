@@ -122,6 +122,7 @@ void ShootingWorker::expandTo(const ShootingNode& node, ShootingNode child, cons
   const bool flies = way.flightCost < -logVelocity(1.2 * settings().bendCap);
   const int more = level >= n - set.lastContacts ? set.lastFactor : 1;
   if (!flies) ++deaths.bent;
+  const bool steered = steeredTo(node, level, region, duration, 1).has_value();
   const int count = flies ? static_cast<int>(set.children * more * effort) : 0;
   for (int i = 0; i < count; ++i) {
     Coordinates wish = Coordinates::Zero();
@@ -131,7 +132,7 @@ void ShootingWorker::expandTo(const ShootingNode& node, ShootingNode child, cons
       for (int axis = 0; axis < 6; ++axis) wish[axis] = spread * bellShaped(random);
     }
     const double restitution = variedRestitution(level, i, random);
-    const double eager = i == 0 || !problem_.places.any() ? 1 : random.uniform(0.5, 1.5);
+    const double eager = i == 0 || !steered ? 1 : random.uniform(0.5, 1.5);
     shoot(node, child, region, wish, duration, eager, restitution, bound);
   }
   const int aimed = level + 1 == n ? set.aimedEndingBeam : set.aimedBeam;

@@ -16,12 +16,15 @@ namespace {
 
 constexpr double kFourDegrees = 0.0699;
 
+/// The rhythm of a drop of its own, to rest.
 PlanRequest restingRequest(const Body& body) {
   PlanRequest request = test::requestFor(body);
-  request.signature =
-      test::clicks({{0, 0, 1, 0, 1}, {0.2, 0, 0.6, 0, 1}, {0.3, 0.06, 0.5, 0.02, 1}}, true);
+  request.signature = test::signatures(body, 1, 3, 8)[0];
+  request.signature.terminal = true;
   return request;
 }
+
+std::size_t lastOf(const PlanRequest& request) { return request.signature.events.size() - 1; }
 
 Plan planOf(const PlanRequest& request) {
   auto plans = ShootingPlanner(test::smallSearch()).plan(request, {});
@@ -43,7 +46,7 @@ TEST(OrientationWishesTest, ShowAnyFaceOfADieAtNoPrice) {
   ASSERT_TRUE(free.solved) << free.failure;
   for (const auto& [name, direction] : die.definition.faces) {
     const Eigen::Vector3d face = die.bodyFromPrincipal.transpose() * direction;
-    request.orientations = {{2, face, Eigen::Vector3d::UnitZ()}};
+    request.orientations = {{lastOf(request), face, Eigen::Vector3d::UnitZ()}};
     const Plan plan = planOf(request);
     ASSERT_TRUE(plan.solved) << name << ": " << plan.failure;
     EXPECT_NEAR(std::acos(shownAtRest(plan, face).z()), 0, kFourDegrees) << name;
@@ -60,7 +63,8 @@ TEST(OrientationWishesTest, TurnTheWholeMotionWhereTheyAreLevel) {
   const Eigen::Vector3d six = die.bodyFromPrincipal.transpose() * die.definition.faces.at("6");
   const Eigen::Vector3d two = die.bodyFromPrincipal.transpose() * die.definition.faces.at("2");
   const Eigen::Vector3d there = Eigen::Vector3d(3, 4, 0).normalized();
-  request.orientations = {{2, six, Eigen::Vector3d::UnitZ()}, {2, two, there}};
+  request.orientations = {{lastOf(request), six, Eigen::Vector3d::UnitZ()},
+                          {lastOf(request), two, there}};
   const Plan plan = planOf(request);
   ASSERT_TRUE(plan.solved) << plan.failure;
   EXPECT_GT(shownAtRest(plan, six).z(), std::cos(kFourDegrees));
@@ -75,7 +79,7 @@ TEST(OrientationWishesTest, AreSearchedForWhereTheBodyHasNoSuchSymmetry) {
     Eigen::Index thin = 0;
     eraser.principalMoments.maxCoeff(&thin);
     const Eigen::Vector3d broad = side * Eigen::Vector3d::Unit(thin);
-    request.orientations = {{2, broad, Eigen::Vector3d::UnitZ()}};
+    request.orientations = {{lastOf(request), broad, Eigen::Vector3d::UnitZ()}};
     const Plan plan = planOf(request);
     ASSERT_TRUE(plan.solved) << plan.failure;
     EXPECT_GT(shownAtRest(plan, broad).z(), std::cos(kFourDegrees));
@@ -99,7 +103,8 @@ TEST(OrientationWishesTest, HoldInTheMiddleToo) {
 TEST(OrientationWishesTest, SayWhenNothingLiesSo) {
   PlanRequest request = restingRequest(test::die());
   // A die does not rest on a corner.
-  request.orientations = {{2, Eigen::Vector3d(1, 1, 1).normalized(), Eigen::Vector3d::UnitZ()}};
+  request.orientations = {
+      {lastOf(request), Eigen::Vector3d(1, 1, 1).normalized(), Eigen::Vector3d::UnitZ()}};
   const Plan plan = planOf(request);
   EXPECT_FALSE(plan.solved);
   EXPECT_THAT(plan.failure, testing::HasSubstr("--orient"));
