@@ -26,8 +26,9 @@ PlanRequest restingRequest(const Body& body) {
 
 std::size_t lastOf(const PlanRequest& request) { return request.signature.events.size() - 1; }
 
-Plan planOf(const PlanRequest& request) {
-  auto plans = ShootingPlanner(test::smallSearch()).plan(request, {});
+Plan planOf(const PlanRequest& request,
+            const ShootingPlannerSettings& settings = test::smallSearch()) {
+  auto plans = ShootingPlanner(settings).plan(request, {});
   return plans ? plans->front() : Plan();
 }
 
@@ -80,7 +81,7 @@ TEST(OrientationWishesTest, AreSearchedForWhereTheBodyHasNoSuchSymmetry) {
     eraser.principalMoments.maxCoeff(&thin);
     const Eigen::Vector3d broad = side * Eigen::Vector3d::Unit(thin);
     request.orientations = {{lastOf(request), broad, Eigen::Vector3d::UnitZ()}};
-    const Plan plan = planOf(request);
+    const Plan plan = planOf(request, {});
     ASSERT_TRUE(plan.solved) << plan.failure;
     EXPECT_GT(shownAtRest(plan, broad).z(), std::cos(kFourDegrees));
   }
