@@ -8,8 +8,8 @@ add_library(ifa_flags INTERFACE)
 target_compile_options(ifa_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -ffp-contract=off -fno-math-errno -fno-trapping-math
   $<$<BOOL:${IFA_WARNINGS_AS_ERRORS}>:-Werror>)
-# From precompiled headers g++ 12 forgets which are the system's, and tells what its optimiser takes
-# std::string for (bugs 105329 and 105651 of gcc).
+# With precompiled headers g++ 12 warns of copies inside std::string that do not happen (gcc's bugs 105329,
+# 105651 and their like); without, it does not.
 if(IFA_PRECOMPILED_HEADERS AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(ifa_flags INTERFACE -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow
                                              -Wno-stringop-overread)
