@@ -31,13 +31,6 @@ TEST(Usage, HelpNamesEveryCommand) {
   }
 }
 
-TEST(Usage, HelpOffersOnlyWhatIsThere) {
-  const auto help = runProgram({"sync", "--help"}).out;
-  for (const char* later : {"--orient", "--positions"}) {
-    EXPECT_THAT(help, testing::Not(HasSubstr(later)));
-  }
-}
-
 class BadCall : public testing::TestWithParam<std::vector<std::string>> {};
 
 TEST_P(BadCall, ExitsWithTwoAndSaysWhy) {
