@@ -13,9 +13,9 @@
 
 #include "base/paths.h"
 #include "body/object_file.h"
+#include "evaluation_cases.h"
 #include "pipeline/choose_object.h"
 #include "pipeline/learned.h"
-#include "signature/signature_json.h"
 
 namespace {
 
@@ -87,8 +87,7 @@ int main(int argc, char** argv) {
     const std::string& name = objects[truth].name;
     Tally own;
     for (int i = 0; i < 20; ++i) {
-      const auto signature = ifa::readSignature(fmt::format(
-          "{}/tests/evaluation/{}/{}-{:02d}.signature.json", IFA_SOURCE_DIR, name, name, i));
+      const auto signature = ifa::bench::caseOf(name, i);
       if (!signature || signature->events.size() < 2) continue;
       std::vector<double> logs;
       for (const Known& one : objects) logs.push_back(one.rhythm.log(*signature));

@@ -10,21 +10,16 @@ import sys
 import zlib
 
 LIBRARY = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "objects")
+sys.path.insert(0, LIBRARY)
+from geometry import cross, dot  # noqa: E402
 SIDE, FINE = 240, 3  # pixels of a view; samples of a pixel along each axis
 CREASE = math.cos(math.radians(30))
 # Directions to the eye, two views; light comes from above, on the left of it.
 VIEWS = [(0.52, -0.72, 0.62), (-0.55, -0.70, -0.52)]
 
 
-def dot(a, b):
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def cross(a, b):
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-
-
 def unit(a):
+    """As it is where it has no length: a triangle without an area is not seen."""
     length = math.sqrt(dot(a, a)) or 1.0
     return (a[0] / length, a[1] / length, a[2] / length)
 

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/choose_object.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 
 #include "base/paths.h"
 #include "body/object_file.h"
