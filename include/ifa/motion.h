@@ -116,6 +116,7 @@ struct Motion {
   std::string program;
   std::uint64_t seed = 0;
   std::string planner;
+  std::string settings;  ///< tells apart what was asked for, with what it is compared; may be empty
   MotionObject object;
   std::optional<GivenSurface> given;  ///< only where `object` has a fitted restitution
   MotionSound sound;

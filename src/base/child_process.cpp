@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <cmath>
 #include <csignal>
+#include <fstream>
 #include <string_view>
 
 #include "base/write_all.h"
@@ -21,8 +22,16 @@ namespace {
 
 constexpr int kFailed = 1;
 
+/// Bytes of data that this process has mapped (proc(5), statm).
+std::uint64_t mappedData() {
+  std::ifstream statm("/proc/self/statm");
+  std::uint64_t pages = 0;
+  for (int field = 0; field < 6; ++field) statm >> pages;
+  return statm ? pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) : 0;
+}
+
 /// Whoever watches over this process must not take the child's end for its own.
-void becomeChild(double seconds) {
+void becomeChild(double seconds, std::uint64_t bytes) {
   for (const int signal : {SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSEGV, SIGTRAP, SIGPROF, SIGTERM}) {
     ::signal(signal, SIG_DFL);
   }
@@ -30,6 +39,8 @@ void becomeChild(double seconds) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   const rlimit core{0, 0};
   ::setrlimit(RLIMIT_CORE, &core);
+  const rlimit data{bytes, RLIM_INFINITY};
+  ::setrlimit(RLIMIT_DATA, &data);
   itimerval left{};  // of processor time; its signal ends the process
   left.it_value.tv_sec = static_cast<time_t>(seconds);
   left.it_value.tv_usec = static_cast<suseconds_t>((seconds - std::floor(seconds)) * 1e6);
@@ -38,8 +49,9 @@ void becomeChild(double seconds) {
   if (nothing >= 0) ::dup2(nothing, STDERR_FILENO);
 }
 
-[[noreturn]] void work(const std::function<std::string()>& what, int file, double seconds) {
-  becomeChild(seconds);
+[[noreturn]] void work(const std::function<std::string()>& what, int file, double seconds,
+                       std::uint64_t bytes) {
+  becomeChild(seconds, bytes);
   int code = kFailed;
   try {
     if (writeAll(file, what())) code = 0;
@@ -63,23 +75,25 @@ std::string readAll(int file) {
 
 }  // namespace
 
-std::optional<std::string> callInChild(const std::function<std::string()>& what, double seconds) {
+std::optional<std::string> callInChild(const std::function<std::string()>& what, double seconds,
+                                       std::uint64_t bytes) {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) return std::nullopt;
+  const std::uint64_t most = mappedData() + bytes;
   const pid_t child = ::fork();
   if (child == 0) {
     ::close(ends[0]);
-    work(what, ends[1], seconds);
+    work(what, ends[1], seconds, most);
   }
   ::close(ends[1]);
-  std::string bytes;
-  if (child > 0) bytes = readAll(ends[0]);
+  std::string returned;
+  if (child > 0) returned = readAll(ends[0]);
   ::close(ends[0]);
   int status = -1;
   while (child > 0 && ::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (child < 0 || !WIFEXITED(status) || WEXITSTATUS(status) != 0) return std::nullopt;
-  return bytes;
+  return returned;
 }
 
 }  // namespace ifa

@@ -214,6 +214,7 @@ Result<Motion> parseMotion(std::string_view json, const std::string& place) {
     motion.program = root.member("program").text();
     motion.seed = root.member("seed").integer<std::uint64_t>();
     motion.planner = root.member("planner").text();
+    if (root.has("settings")) motion.settings = root.member("settings").text();
     if (root.has("cut")) motion.cut = oneOf<EventCut>(root.member("cut"), {"audible", "paper"});
     readObjectAndSound(root, motion);
     readOutcome(root, motion);

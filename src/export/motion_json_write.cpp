@@ -76,6 +76,7 @@ void appendHeader(Text& out, const Motion& motion) {
   out.raw("{\"format\": \"inverse-foley-motion\", \"version\": 1,\n ");
   out.field("program", motion.program).field("seed", motion.seed);
   out.field("planner", motion.planner, ",\n ");
+  if (!motion.settings.empty()) out.field("settings", motion.settings, ",\n ");
   if (motion.cut != EventCut::kAudible) {
     out.field("cut", std::string(cutName(motion.cut)), ",\n ");
   }

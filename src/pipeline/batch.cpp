@@ -10,11 +10,9 @@
 #include <set>
 #include <system_error>
 
-#include "base/version.h"
-#include "body/object_file.h"
 #include "export/motion_json.h"
-#include "pipeline/choose_object.h"
 #include "pipeline/output_files.h"
+#include "pipeline/settings_hash.h"
 
 namespace ifa {
 
@@ -66,7 +64,8 @@ void dropLabels(std::vector<BatchItem>& items) {
 
 bool isNewer(const fs::path& path, fs::file_time_type than) {
   std::error_code code;
-  return !path.empty() && fs::last_write_time(path, code) > than;
+  const auto written = fs::last_write_time(path, code);
+  return !code && written > than;
 }
 
 std::vector<fs::path> motionFiles(const fs::path& folder, int takes) {
@@ -85,59 +84,23 @@ bool holds(const fs::path& folder, const OutputSettings& output) {
   });
 }
 
-bool sameRestitution(const Motion& motion, const SynchronizeSettings& settings) {
-  if (motion.given.has_value() != settings.fit) return false;
-  const double given = motion.given ? motion.given->restitution : motion.object.restitution;
-  return given == settings.restitution.value_or(given);
-}
-
-// Asked to lie the same way; faces are those of the object beside the motion. Where in doubt, no.
-bool sameWishes(const Motion& motion, const SynchronizeSettings& settings, const fs::path& folder) {
-  if (motion.orientations.size() != settings.orientations.size()) return false;
-  // Places are of one motion: whoever asks them of a folder has each done again.
-  if (!settings.positions.empty() || !motion.positions.empty()) return false;
-  if (motion.orientations.empty()) return true;
-  const auto object = readObjectFile(folder / (motion.object.name + ".json"));
-  if (!object) return false;
-  const int count = static_cast<int>(motion.contacts.size());
-  const int last = motion.contacts.back().terminal ? -1 : count - 1;
-  for (std::size_t i = 0; i < motion.orientations.size(); ++i) {
-    const MotionOrientation& made = motion.orientations[i];
-    const OrientationWish& wish = settings.orientations[i];
-    const auto face = object->faces.find(wish.face);
-    const bool named = face != object->faces.end();
-    if (!wish.face.empty() && !named) return false;
-    const Eigen::Vector3d body = named ? face->second : wish.body.normalized();
-    if (made.contact != (wish.contact == 0 || wish.contact == count ? last : wish.contact - 1) ||
-        !made.body.isApprox(body, 1e-9) || !made.world.isApprox(wish.world.normalized(), 1e-9)) {
-      return false;
-    }
-  }
-  return true;
-}
-
-// Where the best of several objects was taken, any of them.
-bool sameObject(const Motion& motion, const SynchronizeSettings& settings) {
-  const auto objects = candidateObjects(settings.object);
-  if (!objects || objects->empty()) {
-    return motion.object.name == fs::path(settings.object).stem().string();
-  }
-  return std::find(objects->begin(), objects->end(), motion.object.name) != objects->end();
-}
-
 bool isDone(const BatchItem& item, const SynchronizeSettings& settings, const fs::path& folder,
             const OutputSettings& output) {
+  const std::string wanted = hashOf(settings, output);
+  const std::array<fs::path, 4> inputs = {item.sound, item.labels, settings.object,
+                                          settings.graph.database};
   for (const auto& file : motionFiles(folder, settings.takes)) {
     std::error_code code;
     const auto written = fs::last_write_time(file, code);
-    if (code || isNewer(item.sound, written) || isNewer(item.labels, written)) return false;
+    if (code || std::any_of(inputs.begin(), inputs.end(),
+                            [&](const fs::path& input) { return isNewer(input, written); })) {
+      return false;
+    }
     const auto motion = readMotionJson(file);
-    const bool same = motion && sameRestitution(*motion, settings) && motion->success &&
-                      motion->seed == settings.seed && motion->program == programVersion() &&
-                      motion->planner == settings.planner && sameObject(*motion, settings) &&
-                      sameWishes(*motion, settings, file.parent_path()) &&
-                      (settings.surface.empty() || motion->object.surface == settings.surface);
-    if (!same || !holds(file.parent_path(), output)) return false;
+    if (!motion || !motion->success || motion->settings != wanted ||
+        !holds(file.parent_path(), output)) {
+      return false;
+    }
   }
   return true;
 }

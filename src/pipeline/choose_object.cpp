@@ -13,6 +13,7 @@
 #include "pipeline/hear.h"
 #include "pipeline/learned.h"
 #include "pipeline/synchronize_with.h"
+#include "pipeline/wishes.h"
 
 namespace ifa {
 
@@ -59,6 +60,8 @@ Result<double> likelihoodOf(const SynchronizeSettings& settings, Listener& liste
   if (!chosen) return tl::unexpected(chosen.error());
   const auto signature = listener.signature(chosen->body.definition.mergeGap);
   if (!signature) return tl::unexpected(signature.error());
+  const auto wishes = plannedOrientations(settings.orientations, chosen->body, **signature);
+  if (!wishes) return tl::unexpected(wishes.error());
   if ((*signature)->events.size() < 2) return 0;
   SurfaceProperties surface = chosen->body.definition.surfaces.at(chosen->surface);
   if (surface.referenceImpulse <= 0) {
@@ -86,6 +89,13 @@ SynchronizeSettings settingsWith(const SynchronizeSettings& settings, const std:
   one.object = object;
   one.takes = 1;
   return one;
+}
+
+/// Nothing that one object may have and another lacks: surface, faces.
+SynchronizeSettings withoutDemands(SynchronizeSettings settings) {
+  settings.surface.clear();
+  settings.orientations.clear();
+  return settings;
 }
 
 class Choice {
@@ -120,30 +130,27 @@ class Choice {
   Result<std::vector<Candidate>> weighed(const std::vector<std::string>& objects) {
     std::vector<Candidate> candidates;
     Listener listener(settings_);
+    Error lacking;
     for (std::size_t i = 0; i < objects.size(); ++i) {
       if (progress_.stopRequested()) {
         return tl::unexpected<Error>({ErrorCode::kInterrupted, "interrupted", {}, {}});
       }
       progress_("objects", 0.5 * static_cast<double>(i) / static_cast<double>(objects.size()));
-      const auto log = likelihoodOf(settingsWith(settings_, objects[i]), listener, silent_);
-      if (!log && !lacksSurface(objects[i])) return tl::unexpected(log.error());
+      const SynchronizeSettings one = settingsWith(settings_, objects[i]);
+      const auto log = likelihoodOf(one, listener, silent_);
       if (log) {
         candidates.push_back({objects[i], *log, 0});
-      } else {
-        aside_.push_back({objects[i], false, false, 0, 0, log.error().text()});
+        continue;
       }
+      if (!likelihoodOf(withoutDemands(one), listener, silent_)) {
+        return tl::unexpected(log.error());
+      }
+      if (aside_.empty()) lacking = log.error();
+      aside_.push_back({objects[i], false, false, 0, 0, log.error().text()});
     }
-    if (candidates.empty()) return badInput("no object has this surface", settings_.surface);
+    if (candidates.empty()) return tl::unexpected(lacking);
     weigh(candidates);
     return candidates;
-  }
-
-  /// Whether that is all that is wrong with it.
-  [[nodiscard]] bool lacksSurface(const std::string& object) const {
-    SynchronizeSettings any = settingsWith(settings_, object);
-    any.surface.clear();
-    return !settings_.surface.empty() && loadChosenBody(any) &&
-           !loadChosenBody(settingsWith(settings_, object));
   }
 
   Result<void> plan(const Candidate& one) {

@@ -22,10 +22,11 @@ using ObjectRanking = std::vector<ObjectRank>;
 [[nodiscard]] std::vector<double> rhythmProbabilities(const std::vector<double>& logs);
 
 /// Weighs `objects` by the rhythm, plans a motion with each of the likeliest, and ranks them by
-/// likelihood; with less likely ones too until one has a motion. Objects without the surface that
-/// the settings name come last.
+/// likelihood; with less likely ones too until one has a motion. Objects without the surface or
+/// a face that the settings name come last.
 /// @param settings  as for synchronize(), but for the object
-/// Errors: kBadInput and kUsage as of synchronize(), of the first object; kInterrupted.
+/// Errors: kBadInput and kUsage as of synchronize(), of the first object, where it is not only that
+/// some lack a surface or a face; kInterrupted.
 [[nodiscard]] Result<ObjectRanking> chooseObject(const SynchronizeSettings& settings,
                                                  const std::vector<std::string>& objects,
                                                  const Progress& progress);

@@ -22,6 +22,7 @@
 #include "pipeline/hear.h"
 #include "pipeline/learned.h"
 #include "pipeline/output.h"
+#include "pipeline/settings_hash.h"
 #include "pipeline/synchronize_with.h"
 #include "pipeline/wishes.h"
 #include "planner/planner.h"
@@ -307,6 +308,7 @@ Result<Synchronization> synchronizeToFolder(const SynchronizeSettings& wanted,
   }
   auto result = run(settings, *job, progress);
   if (!result) return result;
+  for (Motion& take : result->takes) take.settings = hashOf(wanted, output);
   const auto told = writeTakes(staged->path(), result->takes, settings.takes > 1, job->body,
                                job->heard, output, progress);
   if (!told) return tl::unexpected(told.error());

@@ -43,5 +43,14 @@ TEST(CallInChild, OutlivesWhateverTheChildDoes) {
       1));
 }
 
+TEST(CallInChild, GivesTheChildNoMoreMemoryThanIsSaid) {
+  const auto fill = [](std::size_t bytes) {
+    return std::to_string(std::string(bytes, 'x').size());
+  };
+  constexpr std::size_t kMebi = 1 << 20;
+  EXPECT_TRUE(callInChild([&] { return fill(16 * kMebi); }, 10, 64 * kMebi));
+  EXPECT_FALSE(callInChild([&] { return fill(128 * kMebi); }, 10, 64 * kMebi));
+}
+
 }  // namespace
 }  // namespace ifa

@@ -81,6 +81,9 @@ TEST(SynchronizeAll, DoesAgainWhatLacksAFileThatIsAskedFor) {
   settings.restitution = 0.3;
   EXPECT_EQ(outcome(output), BatchOutcome::kSolved);
   EXPECT_EQ(outcome(output), BatchOutcome::kSkipped);
+  settings.orientations = {{0, "", {0, 0, 1}, {0, 0, 1}}};
+  EXPECT_EQ(outcome(output), BatchOutcome::kSolved);
+  EXPECT_EQ(outcome(output), BatchOutcome::kSkipped);
 }
 
 }  // namespace

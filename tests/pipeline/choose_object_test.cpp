@@ -119,6 +119,18 @@ TEST(ChooseObject, PutsAsideWhatLacksTheSurface) {
   EXPECT_EQ(one->front().probability, 1);
 }
 
+TEST(ChooseObject, PutsAsideWhatLacksTheFace) {
+  SynchronizeSettings settings = settingsFor("");
+  settings.orientations = {{0, "6", {0, 0, 1}, {0, 0, 1}}};
+  const auto ranking = chooseObject(settings, {"Eraser", "d6"}, {});
+  ASSERT_TRUE(ranking.has_value()) << ranking.error().text();
+  EXPECT_EQ(ranking->front().object, "d6");
+  EXPECT_EQ(ranking->back().object, "Eraser");
+  EXPECT_FALSE(ranking->back().planned);
+  EXPECT_THAT(ranking->back().reason, HasSubstr("no face"));
+  EXPECT_THAT(chooseObject(settings, {"Eraser"}, {}).error().text(), HasSubstr("no face"));
+}
+
 TEST(ChooseObject, CanBeInterrupted) {
   const std::atomic<bool> stop{true};
   Progress progress;
