@@ -54,7 +54,18 @@ function(ifa_folder NAME)
   target_link_libraries(ifa_${NAME} ${SCOPE} Eigen3::Eigen ${ARG_DEPENDS} ${ARG_LIBRARIES})
 endfunction()
 
-# ifa_tests(NAME): tests/NAME/*_test.cpp as one program ifa_NAME_test, each test a ctest of its own.
+# ifa_compile_quickly(NAME): for command lines, which only call the library: to optimise what reads them takes
+# as long as to compile half of it. Release builds are optimised all the same.
+function(ifa_compile_quickly NAME)
+  target_compile_options(${NAME} PRIVATE $<$<NOT:$<CONFIG:Release>>:-O0>)
+endfunction()
+
+# ifa_tests(NAME library...): tests/NAME/*_test.cpp as one program ifa_NAME_test, each test a ctest of its own.
+# Where NAME is in IFA_TESTS_THAT_CALCULATE its oracles take long, or it compiles the library's templates.
+# The others only call the library: to optimise and instrument them takes longer than to run them, and the
+# sanitisers watch in the library over what they hand to it.
+set(IFA_TESTS_THAT_CALCULATE body dynamics sampler database affinity connection graph planner motion audit
+                             sonify render)
 function(ifa_tests NAME)
   file(GLOB SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${NAME}/*.cpp)
   if(SOURCES)
@@ -65,7 +76,13 @@ function(ifa_tests NAME)
       IFA_SOURCE_DIR="${PROJECT_SOURCE_DIR}" IFA_PROGRAM="$<TARGET_FILE:ifa_program>")
     target_link_libraries(ifa_${NAME}_test PRIVATE ifa ifa_flags ${ARGN} fmt::fmt
                                                    GTest::gtest_main GTest::gmock)
-    ifa_precompile(ifa_${NAME}_test ifa_base_test <gmock/gmock.h> <gtest/gtest.h>)
+    if(NAME IN_LIST IFA_TESTS_THAT_CALCULATE)
+      set(OWNER ifa_body_test)
+    else()
+      set(OWNER ifa_base_test)
+      target_compile_options(ifa_${NAME}_test PRIVATE -O0 -fno-sanitize=all)
+    endif()
+    ifa_precompile(ifa_${NAME}_test ${OWNER} <gmock/gmock.h> <gtest/gtest.h>)
     gtest_discover_tests(ifa_${NAME}_test TEST_PREFIX "${NAME}." DISCOVERY_TIMEOUT 60
                          PROPERTIES TIMEOUT 900
                          ENVIRONMENT "XDG_CACHE_HOME=${CMAKE_CURRENT_BINARY_DIR}/cache")
