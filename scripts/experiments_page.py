@@ -1,0 +1,139 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The page of scripts/experiments.sh, from what `ifa evaluate` reported.
+
+usage: experiments_page.py best REPORT.json   the name of the case to show
+       experiments_page.py page WORK OUT      writes OUT/README.md
+"""
+import datetime
+import json
+import math
+import pathlib
+import platform
+import sys
+
+CASES = "\n## Cases"
+CHARTS = "\n### Charts"
+
+# report, heading, text; {date} is the day of the last measurement
+SECTIONS = [
+    ("hybrid", "Table 1", "Planner `hybrid`, the default, beside the paper's figures for its own recordings (its search "
+     "times are minutes on 32 cores, shown in seconds). Ten signatures a row, odd-numbered ones of the "
+     "[evaluation sets](../evaluation.md): drops of another engine, with wrong restitution and size, heard with errors. "
+     "*f_v* is the geometric mean over contacts."),
+    ("planners", "Planners side by side", "The first five signatures of each row. `graph` is the paper's search, with "
+     "events that also stand for their images under the body's symmetry, no early exit, time of the processor; once "
+     "with audible events, once with the paper's own cut of events (signatures of the same drops cut likewise)."),
+    ("table2", "Table 2: places", "Known places of each drop's contacts were labelled with normal errors of 5 mm on x and "
+     "y, and the planner was given the labels. Errors are against the true places. Drops whose path's box has a side "
+     "of 20 cm or more, as the paper's."),
+    ("orientations", "Orientations", "`--orient last:FACE=up`: the body is to come to rest so."),
+    ("database_size", "Figure 16: Score against the size of the database", "Planner `graph`, one sound an object, the "
+     "same for all sizes, no early exit."),
+]
+
+
+def read(path):
+    """The reports of a file, or none."""
+    if not path.exists():
+        return []
+    report = json.loads(path.read_text())
+    return report.get("reports", [report])
+
+
+def best(path):
+    cases = [c for report in read(path) for c in report["cases"] if c["solved"]]
+    shown = [c for c in cases if c["n"] >= 3] or cases
+    return max(shown, key=lambda c: c["score"])["name"] if shown else ""
+
+
+def extreme(rows, value, choose):
+    """"0.912 (d4 (desk))" of the rows that have solved cases."""
+    row = choose((r for r in rows if r["solved"]), key=value, default=None)
+    return "nothing solved" if row is None else f"{value(row):.3f} ({row['name']})"
+
+
+def of_hybrid(report):
+    rows, total = report["objects"], report["total"]
+    yield (f"`hybrid` solves all signatures of all 31 rows",
+           f"{total['solved']} of {total['cases']} on {len(rows)} rows")
+    yield "mean Score of each row at least 0.85", f"lowest {extreme(rows, lambda r: r['mean_score'], min)}"
+    yield "mean search of each row under 3 s", \
+        f"longest {extreme(rows, lambda r: r['mean_search_seconds'], max)} s, of all {total['mean_search_seconds']:.2f} s"
+
+
+def of_places(reports):
+    places = [c["places"] for r in reports for c in r["cases"] if c["places"]]
+    count = sum(len(r["cases"]) for r in reports)
+    relative = [(p["mean"] / p["longest_side"], p["largest"] / p["longest_side"]) for p in places]
+    if relative:
+        yield "mean error of each motion at most 0.03 of the path's longest side", \
+            f"{max(m for m, _ in relative):.3f} at most, on {len(places)} of {count} motions"
+        yield "largest error at most 0.06", f"{max(x for _, x in relative):.3f}"
+
+
+def of_orientations(reports):
+    cases = [c for r in reports for c in r["cases"] if c["orientation_errors"]]
+    met = sum(c["solved"] and max(c["orientation_errors"]) <= math.radians(4) for c in cases)
+    if cases:
+        yield "all final poses within 4 degrees of what was asked", f"{met} of {len(cases)}"
+
+
+def asked(work):
+    """Lines "asked | found" of what there is."""
+    for report in read(work / "hybrid.json"):
+        yield from of_hybrid(report)
+    yield from of_places(read(work / "table2.json"))
+    yield from of_orientations(read(work / "orientations.json"))
+
+
+def processor():
+    for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines():
+        if line.startswith("model name"):
+            return line.split(":")[1].strip()
+    return platform.processor()
+
+
+def days(work):
+    """First and last day of the measurements."""
+    times = [p.stat().st_mtime for p in work.glob("*/*.json")]
+    texts = [datetime.datetime.fromtimestamp(t, datetime.timezone.utc).date().isoformat()
+             for t in (min(times), max(times))] if times else []
+    return " to ".join(dict.fromkeys(texts))
+
+
+def summary(path):
+    """What a report says but its title and single cases."""
+    text = path.read_text().split(CASES)[0]
+    return text.split("\n", 2)[2].strip()
+
+
+def page(work, out):
+    note = work / "note"
+    lines = ["# Experiments", "",
+             "The paper's experiments, made again by `scripts/experiments.sh`; do not edit. Measured "
+             f"{days(work)} with `ifa` on {processor()}. "
+             + (note.read_text().strip() if note.exists() else ""), "",
+             "| asked | found |", "|---|---|"]
+    lines += [f"| {wanted} | {found} |" for wanted, found in asked(work)]
+    for name, heading, text in SECTIONS:
+        report = out / f"{name}.md"
+        if report.exists():
+            lines += ["", f"## {heading}", "", text, "", summary(report), "", f"[Each case]({name}.md)"]
+    if (out / "reel.mp4").exists():
+        lines += ["", "## Reel", "", "[reel.mp4](reel.mp4): for each row the solved case of the highest Score, with a sound "
+                  "that `ifa sonify` made for it."]
+    (out / "README.md").write_text("\n".join(lines) + "\n")
+
+
+def main():
+    if sys.argv[1:2] == ["best"] and len(sys.argv) == 3:
+        print(best(pathlib.Path(sys.argv[2])))
+    elif sys.argv[1:2] == ["page"] and len(sys.argv) == 4:
+        page(pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3]))
+    else:
+        sys.exit(__doc__)
+
+
+if __name__ == "__main__":
+    main()
