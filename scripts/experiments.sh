@@ -8,7 +8,8 @@
 # planners table2 orientations database_size reel; all of them without. `page` alone writes the
 # page again. NOTE stands at the top of the page: what else the machine did, for example. Needs
 # python3 and, for the reel, ffmpeg (scripts/install_packages.sh foreign).
-# --quick: a few small searches of each kind, into WORK/quick: shows that all of it works.
+# --quick: a few small searches of each kind, into WORK/quick, and a look at what was written: shows
+# that all of it works.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 bin=$(realpath "${BIN:-build/release/bin}")
@@ -95,18 +96,21 @@ report() {
 
 # search VARIANT ROW: planner "graph" by one way of reading the paper (docs/branch-and-bound.md).
 search() {
-  local variant=$1 row=$2 name=${2%@*} kind=sets options=(--cut audible)
+  local variant=$1 row=$2 name=${2%@*} kind=sets cut=audible options=() set
   [ ! -e "$work/$variant/$row.json" ] || return 0
-  if [ "$variant" = paper_cut ]; then
-    kind=paper_sets options=(--cut paper)
-  fi
-  local set
-  set=$(set_of "$row" $kind "${options[@]}")
+  case $variant in
+    paper_cut | paper) kind=paper_sets cut=paper ;;
+  esac
+  case $variant in
+    exact) options=(--no-symmetry) ;;
+    printed | paper) options=(--no-symmetry --printed-velocity --connection blend) ;;
+  esac
+  set=$(set_of "$row" $kind --cut $cut)
   XDG_CACHE_HOME=$large_cache "$ifa" database build "$name" --surface "${row#*@}" \
-    -n "$simulations" "${options[@]}" >/dev/null 2>>"$work/log"
+    -n "$simulations" --cut $cut >/dev/null 2>>"$work/log"
   XDG_CACHE_HOME=$large_cache evaluate "$variant/$row" "$set" --limit "$graph_limit" --jobs 2 \
     --planner graph --early-exit 1 --simulations "$simulations" --processor-time \
-    --time-limit "$seconds" "${options[@]}"
+    --time-limit "$seconds" --cut $cut "${options[@]}"
   rm -rf "$large_cache"
 }
 
@@ -120,6 +124,13 @@ graph() {
 
 paper_cut() {
   for row in "${rows[@]}"; do search paper_cut "$row"; done
+}
+
+# Other readings of the paper: without images, as printed, as printed with its own cut of events.
+readings() {
+  for row in "${rows[@]}"; do
+    for reading in exact printed paper; do search $reading "$row"; done
+  done
 }
 
 planners() {
@@ -201,6 +212,7 @@ page() {
   local others=("$work"/{shoot,graph,paper_cut}/*.json)
   [ ${#others[@]} -eq 0 ] ||
     report planners --limit $graph_limit -- "$work"/hybrid/*.json "${others[@]}"
+  report readings -- "$work"/{exact,printed,paper}/*.json
   report table2 -- "$work"/table2/*.json
   report orientations -- "$work"/unoriented/*.json "$work"/orientations/*.json
   report database_size -- "$work"/database_size/*.json
@@ -210,10 +222,22 @@ page() {
 
 [ -z "${NOTE:-}" ] || echo "$NOTE" >"$work/note"
 all=(table1 graph paper_cut planners table2 orientations database_size reel)
-for experiment in "${chosen[@]:-${all[@]}}"; do
-  case " ${all[*]} page " in
-    *" $experiment "*) [ "$experiment" = page ] || "$experiment" ;;
-    *) say "no experiment $experiment: ${all[*]}"; exit 2 ;;
-  esac
-done
+experiments() {
+  for experiment in "${chosen[@]:-${all[@]}}"; do
+    case " ${all[*]} readings page " in
+      *" $experiment "*) [ "$experiment" = page ] || "$experiment" ;;
+      *)
+        say "no experiment $experiment: ${all[*]} readings page"
+        exit 2
+        ;;
+    esac
+  done
+}
+
+[ -z "${NOTE:-}" ] || echo "$NOTE" >"$work/note"
+experiments
 page
+if [ -n "$quick" ]; then
+  ifa=false experiments # what is done is not done again
+  python3 scripts/experiments_page.py check "$out"
+fi

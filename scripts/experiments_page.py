@@ -4,13 +4,16 @@
 
 usage: experiments_page.py best REPORT.json   the name of the case to show
        experiments_page.py page WORK OUT      writes OUT/README.md
+       experiments_page.py check OUT          whether the page has all sections and whole charts
 """
 import datetime
 import json
 import math
 import pathlib
 import platform
+import re
 import sys
+from xml.etree import ElementTree
 
 CASES = "\n## Cases"
 CHARTS = "\n### Charts"
@@ -24,6 +27,9 @@ SECTIONS = [
     ("planners", "Planners side by side", "The first five signatures of each row. `graph` is the paper's search, with "
      "events that also stand for their images under the body's symmetry, no early exit, time of the processor; once "
      "with audible events, once with the paper's own cut of events (signatures of the same drops cut likewise)."),
+    ("readings", "Other readings of the paper", "Planner `graph` without images under symmetry; as printed "
+     "(the reference of velocities, and flights that are blended and shown at another pace); the latter with the paper's "
+     "own cut of events."),
     ("table2", "Table 2: places", "Known places of each drop's contacts were labelled with normal errors of 5 mm on x and "
      "y, and the planner was given the labels. Errors are against the true places. Drops whose path's box has a side "
      "of 20 cm or more, as the paper's."),
@@ -126,11 +132,31 @@ def page(work, out):
     (out / "README.md").write_text("\n".join(lines) + "\n")
 
 
+def check(out):
+    """Problems of the page, as texts."""
+    text = (out / "README.md").read_text()
+    for name, heading, _ in SECTIONS:
+        if f"## {heading}" not in text and name != "readings":
+            yield f"no section {heading}"
+    for link in re.findall(r"\]\(([^)]+)\)", text):
+        if not (out / link).exists() and not link.startswith("../"):
+            yield f"{link} is not there"
+    charts = list(out.glob("*.svg"))
+    for chart in charts:
+        if not list(ElementTree.parse(chart).iter("{http://www.w3.org/2000/svg}path")):
+            yield f"{chart.name} shows nothing"
+    if len(charts) < len(SECTIONS):
+        yield f"only {len(charts)} charts"
+
+
 def main():
     if sys.argv[1:2] == ["best"] and len(sys.argv) == 3:
         print(best(pathlib.Path(sys.argv[2])))
     elif sys.argv[1:2] == ["page"] and len(sys.argv) == 4:
         page(pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3]))
+    elif sys.argv[1:2] == ["check"] and len(sys.argv) == 3:
+        problems = list(check(pathlib.Path(sys.argv[2])))
+        sys.exit("\n".join(problems) if problems else None)
     else:
         sys.exit(__doc__)
 

@@ -31,9 +31,11 @@ bool hasPoints(const Chart& chart) {
 }
 
 std::string solvedNote(const Evaluations& evaluations) {
-  std::string note = "solved cases:";
-  for (const Evaluation& evaluation : evaluations)
-    note += fmt::format(" {} of {}", evaluation.total.solved, evaluation.total.cases);
+  std::string note;
+  for (const Evaluation& evaluation : evaluations) {
+    note += fmt::format("{}{} of {}", note.empty() ? "solved cases: " : ", ",
+                        evaluation.total.solved, evaluation.total.cases);
+  }
   return note;
 }
 

@@ -13,8 +13,9 @@ namespace ifa {
 namespace {
 
 // Layout, in the picture's own units.
-constexpr double kWidth = 860, kTop = 64, kRight = 224, kBottom = 58, kPlotHeight = 340;
+constexpr double kWidth = 900, kTop = 64, kBottom = 58, kPlotHeight = 340;
 constexpr double kLeft = 72, kLeftOfNames = 178, kNamedRow = 19;
+constexpr double kLegendGap = 20, kLegendText = 36, kLetter = 7.3, kMostLegend = 360;
 constexpr std::size_t kKinds = 8;        // of colours, marks and dashes
 constexpr std::size_t kMostSteps = 300;  // of a cumulative line
 
@@ -129,6 +130,14 @@ std::vector<double> valuesOf(const Chart& chart, bool ofX) {
   return values;
 }
 
+double legendWidth(const Chart& chart) {
+  std::size_t longest = 8;
+  for (const ChartSeries& series : chart.series) longest = std::max(longest, series.name.size());
+  for (const ChartGuide& guide : chart.guides) longest = std::max(longest, guide.name.size());
+  return std::min(kMostLegend,
+                  2 * kLegendGap + kLegendText + kLetter * static_cast<double>(longest));
+}
+
 class ChartWriter {
  public:
   explicit ChartWriter(const Chart& chart)
@@ -136,7 +145,8 @@ class ChartWriter {
         x_(chart.x, valuesOf(chart, true)),
         y_(chart.y, valuesOf(chart, false)),
         left_(chart.y.names.empty() ? kLeft : kLeftOfNames),
-        width_(kWidth - left_ - kRight),
+        right_(legendWidth(chart)),
+        width_(kWidth - left_ - right_),
         height_(chart.y.names.empty()
                     ? kPlotHeight
                     : std::max(120.0, kNamedRow * static_cast<double>(chart.y.names.size()))) {}
@@ -245,26 +255,26 @@ class ChartWriter {
   }
 
   void legend() {
-    const double x = kWidth - kRight + 20;
+    const double x = kWidth - right_ + kLegendGap;
     double y = kTop + 14;
     for (std::size_t i = 0; i < chart_.series.size(); ++i, y += 22) {
       const ChartStyle style = chart_.series[i].style;
       if (style != ChartStyle::kMarks)
         line(i % kKinds, style == ChartStyle::kLine, fmt::format("M{} {}h28", x, y - 4));
       if (style != ChartStyle::kLine) mark(i % kKinds, x + 14, y - 4);
-      svg_.label("text", x + 36, y, "start", chart_.series[i].name);
+      svg_.label("text", x + kLegendText, y, "start", chart_.series[i].name);
     }
     for (const ChartGuide& guide : chart_.guides) {
       if (guide.name.empty()) continue;
       svg_.line("guide", x, y - 4, x + 28, y - 4);
-      svg_.label("text", x + 36, y, "start", guide.name);
+      svg_.label("text", x + kLegendText, y, "start", guide.name);
       y += 22;
     }
   }
 
   const Chart& chart_;
   Scale x_, y_;
-  double left_, width_, height_;
+  double left_, right_, width_, height_;
   SvgText svg_;
 };
 

@@ -199,7 +199,7 @@ TEST_F(EvaluationSet, StopsWhenAsked) {
 
 CaseOutcome solvedCase(int contacts, double score, double fv, double seconds) {
   CaseOutcome outcome;
-  outcome.what = {"d6", "", "case", "", ""};
+  outcome.what = {"d6", "", "case", {}, {}, {}};
   outcome.solved = outcome.done = true;
   outcome.contacts = contacts;
   outcome.score = score;
