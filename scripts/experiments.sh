@@ -38,7 +38,7 @@ if [ -n "$quick" ]; then
   wishes="Eraser@desk:1:0,0,1=up"
   sizes="250 500" size_rows="Eraser@desk"
   film="--size 160x90 --fps 10"
-  work=$work/quick out=$work/quick/page
+  work=$work/quick out=$work/page
   rm -rf "$work"
 fi
 mkdir -p "$work" "$out"
@@ -73,7 +73,7 @@ evaluate() {
   shift 2
   [ ! -e "$work/$name.json" ] || return 0
   say "$name"
-  mkdir -p "$(dirname "$work/$name")"
+  mkdir -p "$work/$name.part"
   local part=$work/$name.part
   "$ifa" evaluate "$set" --parity odd -o "$part/report" "$@" >/dev/null 2>>"$work/log"
   mv "$part/report.json" "$work/$name.json"
@@ -171,39 +171,48 @@ database_size() {
     done
     wait
     rm -rf "$large_cache"
+    for row in $size_rows; do [ -e "$work/database_size/$size-$row.json" ] || return 1; done
   done
 }
 
-# The first solved case of each row with a sound of its own, one after the other.
+# clip ROW CASE: WORK/reel/ROW.mp4, with the row's name and a sound of its own.
+clip() {
+  local row=$1 case=$2 clip=$work/reel/$1
+  say "reel, $row"
+  rm -rf "$clip"
+  {
+    "$ifa" sync "$work/sets/$row/$row/$case.signature.json" --object "${row%@*}" \
+      --surface "${row#*@}" --formats json -o "$clip"
+    "$ifa" sonify "$clip" --reverb 0.3 -o "$clip.wav"
+    # shellcheck disable=SC2086
+    "$ifa" render "$clip" -o "$clip.film.mp4" $film --mute
+  } >/dev/null 2>>"$work/log"
+  ffmpeg -v error -y -i "$clip.film.mp4" -i "$clip.wav" -map 0:v -map 1:a -af apad -shortest \
+    -vf "tpad=stop_mode=clone:stop_duration=1,drawtext=text='${row%@*}, ${row#*@}':x=h/24:y=h/24:\
+fontsize=h/18:fontcolor=white:box=1:boxcolor=black@0.5:boxborderw=6" \
+    -c:v libx264 -crf 23 -pix_fmt yuv420p -c:a aac -bitexact "$clip.part.mp4"
+  mv "$clip.part.mp4" "$clip.mp4"
+  rm -r "$clip.film.mp4" "$clip.wav" "$clip"
+}
+
+# A solved case of each row, one after the other.
 reel() {
   command -v ffmpeg >/dev/null || { say 'no ffmpeg: no reel'; return 0; }
-  local row clip case
+  local row case
   mkdir -p "$work/reel"
   : >"$work/reel/list"
   for row in "${rows[@]}"; do
     [ -e "$work/hybrid/$row.json" ] || continue
-    clip=$work/reel/$row
-    if [ ! -e "$clip.mp4" ]; then
+    if [ ! -e "$work/reel/$row.mp4" ]; then
       case=$(python3 scripts/experiments_page.py best "$work/hybrid/$row.json")
       [ -n "$case" ] || continue
-      say "reel, $row"
-      rm -rf "$clip"
-      "$ifa" sync "$work/sets/$row/$row/$case.signature.json" --object "${row%@*}" \
-        --surface "${row#*@}" --formats json -o "$clip" >/dev/null 2>>"$work/log"
-      "$ifa" sonify "$clip" --reverb 0.3 -o "$clip.wav" >/dev/null 2>>"$work/log"
-      mv "$clip.wav" "$clip/sound.wav"
-      # shellcheck disable=SC2086
-      "$ifa" render "$clip" -o "$clip.film.mp4" $film >/dev/null 2>>"$work/log"
-      ffmpeg -v error -y -i "$clip.film.mp4" -vf "drawtext=text='${row%@*}, ${row#*@}':x=h/24:\
-y=h/24:fontsize=h/18:fontcolor=white:box=1:boxcolor=black@0.5:boxborderw=h/60" \
-        -c:v libx264 -crf 23 -pix_fmt yuv420p -c:a aac -bitexact "$clip.part.mp4"
-      rm "$clip.film.mp4"
-      mv "$clip.part.mp4" "$clip.mp4"
+      clip "$row" "$case"
     fi
     echo "file '$row.mp4'" >>"$work/reel/list"
   done
   [ -s "$work/reel/list" ] || return 0
-  ffmpeg -v error -y -f concat -safe 0 -i "$work/reel/list" -c copy "$out/reel.mp4"
+  ffmpeg -v error -y -f concat -safe 0 -i "$work/reel/list" -c copy -movflags +faststart \
+    "$out/reel.mp4"
 }
 
 page() {

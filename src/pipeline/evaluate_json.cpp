@@ -6,6 +6,7 @@
 #include "base/version.h"
 #include "export/json_node.h"
 #include "pipeline/evaluation_report.h"
+#include "sampler/paper_rows.h"
 
 namespace ifa {
 namespace {
@@ -24,9 +25,17 @@ constexpr Factor kFactors[] = {{"v", &ContactFactors::v}, {"q", &ContactFactors:
                                {"l", &ContactFactors::l}, {"c", &ContactFactors::c},
                                {"o", &ContactFactors::o}, {"p", &ContactFactors::p}};
 
+Json paperJson(const PaperRow* paper) {
+  if (paper == nullptr) return nullptr;
+  return {{"nodes", paper->nodes},   {"mean_n", paper->meanContacts},
+          {"solved", paper->solved}, {"sounds", paper->sounds},
+          {"score", paper->score},   {"search_minutes", paper->searchMinutes}};
+}
+
 Json rowJson(const EvaluationRow& row) {
   return {
       {"name", row.name},
+      {"paper", paperJson(paperRowNamed(row.name))},
       {"database_events", row.events < 0 ? Json(nullptr) : Json(row.events)},
       {"cases", row.cases},
       {"mean_n", row.meanContacts},

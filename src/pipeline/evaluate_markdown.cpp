@@ -61,19 +61,23 @@ const std::vector<std::string> kGraphColumns = {"Score 0.3", "s to 0.3", "arriva
 
 std::vector<std::string> cellsOf(const std::string& name, const Evaluation& evaluation,
                                  const EvaluationRow& row) {
+  // Of solved cases; nothing where there are none.
+  const auto number = [&](double value, int digits) {
+    return row.solved > 0 ? fmt::format("{:.{}f}", value, digits) : "";
+  };
   return {name,
           settingsLabel(evaluation.settings),
           row.events < 0 ? "none" : std::to_string(row.events),
           std::to_string(row.cases),
           fmt::format("{:.1f}", row.meanContacts),
           solvedOf(row.solved, row.cases),
-          fmt::format("{:.2f}", row.meanSearchSeconds),
-          fmt::format("{:.3f}", row.meanScore),
-          fmt::format("{:.3f}", row.meanScoreWithoutSound),
-          fmt::format("{:.3f}", row.meanFv),
-          fmt::format("{:.2f}", row.bendMedian),
-          fmt::format("{:.1f} %", 100 * row.bendShareUpToOne),
-          fmt::format("{:.2f}", row.bendMax),
+          number(row.meanSearchSeconds, 2),
+          number(row.meanScore, 3),
+          number(row.meanScoreWithoutSound, 3),
+          number(row.meanFv, 3),
+          number(row.bendMedian, 2),
+          row.solved > 0 ? fmt::format("{:.1f} %", 100 * row.bendShareUpToOne) : "",
+          number(row.bendMax, 2),
           fmt::format("{:.2f}", row.wallMedian),
           fmt::format("{:.2f}", row.wallP95)};
 }
@@ -82,7 +86,8 @@ std::vector<std::string> cellsOf(const std::string& name, const Evaluation& eval
 std::vector<std::string> graphCellsOf(const EvaluationRow& row) {
   return {fmt::format("{}/{}", row.good, row.cases),
           row.good > 0 ? fmt::format("{:.2f}", row.meanGoodSeconds) : "",
-          fmt::format("{:.2f}", row.arrivalBendMedian), fmt::format("{:.2f}", row.arrivalBendMax)};
+          row.solved > 0 ? fmt::format("{:.2f}", row.arrivalBendMedian) : "",
+          row.solved > 0 ? fmt::format("{:.2f}", row.arrivalBendMax) : ""};
 }
 
 std::vector<std::string> paperCells(const PaperRow& row) {
@@ -113,22 +118,15 @@ struct SideBySide {
       }
     }
     std::stable_sort(names.begin(), names.end(), [&](const auto& a, const auto& b) {
-      return paperOf(a) < paperOf(b);  // in the paper's order; nullptr first
+      return paperRowNamed(a) < paperRowNamed(b);  // in the paper's order; nullptr first
     });
-  }
-
-  /// "d6 (desk)" or "d6"
-  static const PaperRow* paperOf(const std::string& name) {
-    const std::size_t bracket = name.find(" (");
-    if (bracket == std::string::npos) return paperRow(name, "");
-    return paperRow(name.substr(0, bracket), name.substr(bracket + 2, name.size() - bracket - 3));
   }
 };
 
 std::vector<std::string> totalOfPaper(const SideBySide& rows) {
   int solved = 0, sounds = 0;
   for (const std::string& name : rows.names) {
-    const PaperRow* paper = SideBySide::paperOf(name);
+    const PaperRow* paper = paperRowNamed(name);
     if (paper == nullptr) continue;
     solved += paper->solved;
     sounds += paper->sounds;
@@ -161,7 +159,7 @@ std::string evaluationTable(const std::vector<Evaluation>& evaluations) {
       addOurs(shown, *part.evaluation, *part.row);
       shown.clear();
     }
-    if (const PaperRow* paper = SideBySide::paperOf(name)) add(paperCells(*paper));
+    if (const PaperRow* paper = paperRowNamed(name)) add(paperCells(*paper));
   }
   for (const Evaluation& evaluation : evaluations)
     addOurs(&evaluation == &evaluations.front() ? "all" : "", evaluation, evaluation.total);

@@ -64,6 +64,13 @@ inline constexpr std::array<PaperRow, 31> kPaperRows = {
   return row == kPaperRows.end() ? nullptr : &*row;
 }
 
+/// Likewise by a name as the paper writes it, "d6 (desk)", or "d6".
+[[nodiscard]] inline const PaperRow* paperRowNamed(std::string_view name) {
+  const std::size_t bracket = name.find(" (");
+  if (bracket == std::string_view::npos || !name.ends_with(')')) return paperRow(name, {});
+  return paperRow(name.substr(0, bracket), name.substr(bracket + 2, name.size() - bracket - 3));
+}
+
 /// One row of Table 2: position constraints. Errors in m.
 struct PaperPlaces {
   std::string_view motion;

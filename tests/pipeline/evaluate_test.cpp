@@ -280,6 +280,7 @@ TEST(EvaluationReport, TellsTheSameInMarkdownAndJson) {
   const auto json = nlohmann::json::parse(evaluationJson({evaluation}));
   EXPECT_EQ(json["format"], "inverse-foley-evaluation");
   EXPECT_EQ(json["objects"][0]["mean_score"], 0.8);
+  EXPECT_EQ(json["objects"][0]["paper"]["sounds"], 14);
   EXPECT_EQ(json["cases"][0]["bends"].size(), 3u);
   EXPECT_EQ(json["cases"][0]["factors"]["c"][2], 0.125);
   EXPECT_EQ(json["parity"], "all");
