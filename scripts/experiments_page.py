@@ -75,11 +75,12 @@ def of_planner(report):
     """Rows on which a search of the database falls behind the paper's."""
     rows = [r for r in report["objects"] if r["paper"]]
     fewer = [r["name"] for r in rows if r["solved"] * r["paper"]["sounds"] < r["paper"]["solved"] * r["cases"]]
-    worse = [r["name"] for r in rows if r["solved"] and r["mean_score"] < r["paper"]["score"]]
+    scored = [r for r in rows if r["solved"]]
+    worse = [r["name"] for r in scored if r["mean_score"] < r["paper"]["score"]]
     yield f"`{report['label']}`: solved as many as the paper's, on every row", \
         f"{len(rows) - len(fewer)} of {len(rows)} rows" + (f"; not {', '.join(fewer)}" if fewer else "")
     yield f"`{report['label']}`: Score as high as the paper's", \
-        f"{len(rows) - len(worse)} of {len(rows)} rows" + (f"; not {', '.join(worse)}" if worse else "")
+        f"{len(scored) - len(worse)} of {len(scored)} rows with any solved" + (f"; not {', '.join(worse)}" if worse else "")
 
 
 def of_places(reports):
