@@ -3,11 +3,12 @@
 # [BIN=build/release/bin] [WORK=build/experiments] [OUT=docs/experiments] [NOTE="..."]
 #   experiments.sh [--quick] [EXPERIMENT...]
 # The paper's experiments: measures what is not yet in WORK and writes the page OUT/README.md with
-# tables, charts and the reel. Can be stopped and started again at any time: a part that is done is
-# not done again; delete its folder in WORK to have it anew. EXPERIMENT: table1 graph paper_cut
-# planners table2 orientations database_size reel; all of them without. `page` alone writes the
-# page again. NOTE stands at the top of the page: what else the machine did, for example. Needs
-# python3 and, for the reel, ffmpeg (scripts/install_packages.sh foreign).
+# tables, charts and the reel. Can be stopped and started again at any time: what is done is not done
+# again. Delete a folder of WORK to have that part anew, or all of WORK after a change of the program.
+# EXPERIMENT: table1 graph paper_cut planners table2 orientations database_size reel, all of them
+# without; or readings, two more hours of planner "graph"; or page, which only writes the page again.
+# NOTE stands at the top of the page: what else the machine did, for example. Needs python3 and, for
+# the reel, ffmpeg (scripts/install_packages.sh foreign).
 # --quick: a few small searches of each kind, into WORK/quick, and a look at what was written: shows
 # that all of it works.
 set -euo pipefail
@@ -248,5 +249,5 @@ experiments
 page
 if [ -n "$quick" ]; then
   ifa=false experiments # what is done is not done again
-  python3 scripts/experiments_page.py check "$out"
+  [ ${#chosen[@]} -gt 0 ] || python3 scripts/experiments_page.py check "$out"
 fi
