@@ -38,7 +38,7 @@ TEST(Chart, NamesAxesSeriesAndGuides) {
   }
   EXPECT_EQ(count(svg, "class=\"mark c0\""), 4);  // three points, and the legend
   EXPECT_EQ(count(svg, "class=\"guide\""), 2);
-  EXPECT_THAT(svg, HasSubstr(">0.5</text>"));
+  EXPECT_THAT(svg, HasSubstr(">0.4</text>"));
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
 }
 
@@ -46,7 +46,7 @@ TEST(Chart, KeepsEndsThatWereAskedForAndWidensOthers) {
   const std::string svg = chartSvg(chartOf({{0, 0}, {10, 1}}));
   EXPECT_THAT(svg, HasSubstr("d=\"M72.0 404.0L"));  // 0, 0 lies in the corner
   EXPECT_THAT(svg, HasSubstr(">10</text>"));
-  EXPECT_THAT(svg, HasSubstr("L725.6 64.0\""));  // 10 lies a little before the edge at 751.6
+  EXPECT_THAT(svg, HasSubstr("L731.9 64.0\""));  // 10 lies a little before the edge at 758.3
 }
 
 TEST(Chart, ShowsOnlyWhatItCan) {
