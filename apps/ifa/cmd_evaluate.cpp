@@ -5,11 +5,13 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
-#include "base/file.h"
 #include "command.h"
 #include "graph_options.h"
+#include "orient_option.h"
 #include "pipeline/evaluate.h"
+#include "pipeline/evaluation_report.h"
 
 namespace ifa::cli {
 
@@ -19,8 +21,10 @@ namespace {
 
 struct EvaluateOptions {
   EvaluateSettings settings;
+  std::vector<fs::path> inputs;  ///< a folder; or reports
   fs::path report;
   std::string parity;
+  std::vector<std::string> orientations;
 };
 
 void tellCase(Console& console, const CaseOutcome& outcome) {
@@ -30,29 +34,23 @@ void tellCase(Console& console, const CaseOutcome& outcome) {
                           outcome.what.name, outcome.contacts, outcome.wallSeconds, result));
 }
 
-/// REPORT.json and REPORT.md, whichever ending was given.
-Result<void> writeReport(fs::path report, const Evaluation& evaluation) {
-  const std::string extension = report.extension().string();
-  if (extension == ".json" || extension == ".md") report.replace_extension();
-  const fs::path json = report.string() + ".json", markdown = report.string() + ".md";
-  if (auto written = writeFileAtomically(json, evaluationJson(evaluation)); !written)
-    return written;
-  return writeFileAtomically(markdown, evaluationMarkdown(evaluation, true));
+/// The table to stdout, and the report's files.
+Result<void> tell(const EvaluateOptions& options, const std::vector<Evaluation>& evaluations,
+                  CommandContext& context) {
+  std::string table = evaluationTable(evaluations);
+  table.pop_back();  // the console adds its own newline
+  context.console.result(table);
+  if (options.report.empty()) return {};
+  return writeEvaluationReport(options.report, evaluations);
 }
 
-int runEvaluate(const EvaluateOptions& options, CommandContext& context) {
+int runSet(const EvaluateOptions& options, CommandContext& context) {
   const auto evaluation =
       evaluate(options.settings, context.progress,
                [&](const CaseOutcome& outcome) { tellCase(context.console, outcome); });
   if (!evaluation) return context.fail(evaluation.error());
-  std::string table = evaluationMarkdown(*evaluation, false);
-  table.pop_back();  // the console adds its own newline
-  context.console.result(table);
-  if (!options.report.empty()) {
-    if (const auto written = writeReport(options.report, *evaluation); !written) {
-      return context.fail(written.error());
-    }
-  }
+  if (const auto told = tell(options, {*evaluation}, context); !told)
+    return context.fail(told.error());
   if (!evaluation->interrupted) return context.succeed(options.report.string());
   return context.fail({ErrorCode::kInterrupted,
                        fmt::format("interrupted after {} cases", evaluation->cases.size()),
@@ -60,10 +58,49 @@ int runEvaluate(const EvaluateOptions& options, CommandContext& context) {
                        {}});
 }
 
+int combineReports(const EvaluateOptions& options, CommandContext& context) {
+  std::vector<Evaluation> evaluations;
+  for (const fs::path& path : options.inputs) {
+    auto read = readEvaluations(path);
+    if (!read) return context.fail(read.error());
+    evaluations.insert(evaluations.end(), read->begin(), read->end());
+  }
+  evaluations = mergeByLabel(evaluations);
+  for (Evaluation& evaluation : evaluations) {
+    if (options.settings.limit > 0) evaluation = firstCases(evaluation, options.settings.limit);
+  }
+  if (const auto told = tell(options, evaluations, context); !told)
+    return context.fail(told.error());
+  return context.succeed(options.report.string());
+}
+
+int runEvaluate(EvaluateOptions options, CommandContext& context) {
+  for (const std::string& text : options.orientations) {
+    const auto wish = parseOrientation(text);
+    if (!wish) return context.fail(wish.error());
+    options.settings.orientations.push_back(*wish);
+  }
+  std::error_code code;
+  if (fs::is_regular_file(options.inputs.front(), code)) return combineReports(options, context);
+  if (options.inputs.size() > 1) {
+    return context.fail({ErrorCode::kUsage, "only reports can be several", "DIR",
+                         "give one folder of cases, or files that ifa evaluate wrote"});
+  }
+  options.settings.folder = options.inputs.front();
+  return runSet(options, context);
+}
+
 void addOptions(CLI::App& command, EvaluateOptions& options) {
   EvaluateSettings& settings = options.settings;
-  command.add_option("DIR", settings.folder, "folders named NAME or NAME@SURFACE")->required();
-  command.add_option("-o,--out", options.report, "report to write: REPORT.json and REPORT.md");
+  command
+      .add_option("DIR", options.inputs,
+                  "folders named NAME or NAME@SURFACE; or REPORT.json of earlier runs, to be shown "
+                  "as one table, side by side where their labels differ")
+      ->required();
+  command.add_option("-o,--out", options.report,
+                     "report to write: REPORT.json, REPORT.md and charts REPORT-*.svg");
+  command.add_option("--label", settings.label,
+                     "what the report calls these settings (default: made of them)");
   command.add_option("--planner", settings.planner, "hybrid, shoot or graph")
       ->capture_default_str();
   command.add_option("--seed", settings.seed, "of the searches")->capture_default_str();
@@ -75,6 +112,8 @@ void addOptions(CLI::App& command, EvaluateOptions& options) {
       ->check(CLI::Range(0.1, 10.0))
       ->capture_default_str();
   command.add_flag("--fit", settings.fit, "look for the restitution that suits each sound");
+  command.add_option("--orient", options.orientations,
+                     "as of ifa sync, for every case: last:6=up; repeatable");
   command.add_option("--jobs", settings.jobs, "cases at a time; wall times suffer")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();

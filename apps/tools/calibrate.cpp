@@ -11,7 +11,7 @@
 #include "base/file.h"
 #include "body/object_file.h"
 #include "sampler/calibration.h"
-#include "tools/paper_rows.h"
+#include "sampler/paper_rows.h"
 
 namespace {
 
@@ -34,14 +34,6 @@ void readOptions(CLI::App& app, Options& options) {
   app.add_option("--highest-restitution", options.settings.highestRestitution, "of the search");
   app.add_flag("--measure", options.measureOnly, "keep restitution and friction, measure J_ref");
   app.add_flag("--dry-run", options.dryRun, "print only");
-}
-
-const ifa::PaperRow* findRow(const std::string& object, const std::string& surface) {
-  const auto& rows = ifa::paperRows();
-  const auto row = std::find_if(rows.begin(), rows.end(), [&](const ifa::PaperRow& r) {
-    return r.object == object && r.surface == surface;
-  });
-  return row == rows.end() ? nullptr : &*row;
 }
 
 ifa::Calibration calibrate(const Body& body, const ifa::SurfaceProperties& surface,
@@ -75,7 +67,7 @@ ifa::Result<void> calibrateObject(const std::string& name, const Options& option
   if (!definition) return tl::unexpected(definition.error());
   for (auto& [surface, properties] : definition->surfaces) {
     if (!options.surface.empty() && surface != options.surface) continue;
-    const ifa::PaperRow* row = findRow(definition->name, surface);
+    const ifa::PaperRow* row = ifa::paperRow(definition->name, surface);
     const ifa::Calibration c = calibrate(*body, properties, row, options);
     printRow(definition->name, surface, row, c);
     properties = c.surface;

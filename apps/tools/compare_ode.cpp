@@ -9,7 +9,7 @@
 
 #include "body/object_file.h"
 #include "sampler/simulator_comparison.h"
-#include "tools/paper_rows.h"
+#include "sampler/paper_rows.h"
 
 namespace {
 

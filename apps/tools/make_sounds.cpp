@@ -19,7 +19,7 @@
 #include "sonify/room.h"
 #include "sonify/sonify.h"
 #include "sound/band_energy.h"
-#include "tools/paper_rows.h"
+#include "sampler/paper_rows.h"
 
 namespace {
 

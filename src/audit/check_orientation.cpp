@@ -3,12 +3,13 @@
 #include <cmath>
 
 #include "audit/checks.h"
+#include "audit/orientation_errors.h"
 
-namespace ifa::audit_detail {
+namespace ifa {
+
+using namespace audit_detail;
+
 namespace {
-
-/// IFA section 6: c_o sets the half-width of f_o to 4 degrees.
-constexpr double kAsAsked = 4 * 3.14159265358979323846 / 180;
 
 /// The body at the start of the contact, or at the motion's end.
 const MotionSample& sampleOf(const Motion& motion, const MotionOrientation& wish) {
@@ -20,17 +21,28 @@ const MotionSample& sampleOf(const Motion& motion, const MotionOrientation& wish
   return at == motion.trajectory.end() ? motion.trajectory.back() : *at;
 }
 
+double errorOf(const MotionOrientation& wish, const MotionSample& sample) {
+  const Eigen::Vector3d shown = sample.orientation * wish.body;
+  return std::atan2(shown.cross(wish.world).norm(), shown.dot(wish.world));
+}
+
 }  // namespace
 
-void checkOrientations(const Evidence& all, Checks& checks) {
+std::vector<double> orientationErrors(const Motion& motion) {
+  std::vector<double> errors;
+  for (const MotionOrientation& wish : motion.orientations)
+    errors.push_back(errorOf(wish, sampleOf(motion, wish)));
+  return errors;
+}
+
+void audit_detail::checkOrientations(const Evidence& all, Checks& checks) {
   if (all.motion.orientations.empty()) return;
   Worst worst;
   for (const MotionOrientation& wish : all.motion.orientations) {
     const MotionSample& sample = sampleOf(all.motion, wish);
-    const Eigen::Vector3d shown = sample.orientation * wish.body;
-    worst.see(std::atan2(shown.cross(wish.world).norm(), shown.dot(wish.world)), sample.time);
+    worst.see(errorOf(wish, sample), sample.time);
   }
-  checks.push_back(worst.check("orientation as asked", "rad", kAsAsked));
+  checks.push_back(worst.check("orientation as asked", "rad", kOrientationMet));
 }
 
-}  // namespace ifa::audit_detail
+}  // namespace ifa

@@ -7,8 +7,11 @@
 #include <mutex>
 #include <thread>
 
+#include "audit/orientation_errors.h"
 #include "base/stopwatch.h"
+#include "pipeline/evaluation_places.h"
 #include "pipeline/synchronize_with.h"
+#include "sampler/paper_rows.h"
 
 namespace ifa {
 namespace {
@@ -40,8 +43,14 @@ void judge(const Motion& motion, const std::string& planner, CaseOutcome& outcom
   for (const MotionContact& contact : motion.contacts) {
     outcome.bends.push_back(contact.bend);
     outcome.arrivalBends.push_back(contact.arrivalBend);
+    outcome.factors.push_back(contact.factors);
     outcome.startError = std::max(outcome.startError, std::abs(contact.time - contact.targetTime));
+    if (contact.targetDuration > 0) {
+      outcome.continuous.push_back(
+          {contact.targetDuration, contact.duration, contact.targetCentroid, contact.centroid});
+    }
   }
+  if (!motion.trajectory.empty()) outcome.orientationErrors = orientationErrors(motion);
   if (motion.database) outcome.events = motion.database->events;
   outcome.goodSeconds = motion.secondsToGoodScore;
   outcome.solved = isSolved(motion, planner, outcome);
@@ -60,6 +69,7 @@ SynchronizeSettings settingsFor(const EvaluateSettings& settings, const Evaluati
   one.timeLimitSeconds = settings.timeLimitSeconds;
   one.restitutionScale = settings.restitutionScale;
   one.fit = settings.fit;
+  one.orientations = settings.orientations;
   return one;
 }
 
@@ -67,8 +77,20 @@ CaseOutcome runCase(const EvaluateSettings& settings, const EvaluationCase& what
                     const Progress& progress) {
   CaseOutcome outcome;
   outcome.what = what;
+  SynchronizeSettings one = settingsFor(settings, what);
+  KnownPlaces places;
+  if (!what.places.empty()) {
+    auto read = readKnownPlaces(what.places);
+    if (!read) {
+      outcome.failure = read.error().text();
+      outcome.done = true;
+      return outcome;
+    }
+    places = std::move(*read);
+    one.positions = wishesFor(places);
+  }
   const Stopwatch watch;
-  const auto found = synchronizeWith(settingsFor(settings, what), shelf, progress);
+  const auto found = synchronizeWith(one, shelf, progress);
   outcome.wallSeconds = watch.seconds();
   outcome.done = !progress.stopRequested();
   if (!found) {
@@ -77,6 +99,9 @@ CaseOutcome runCase(const EvaluateSettings& settings, const EvaluationCase& what
   }
   outcome.contacts = static_cast<int>(found->signature.events.size());
   judge(found->takes.front(), settings.planner, outcome);
+  if (!what.places.empty() && outcome.solved) {
+    outcome.places = placeErrors(places, found->takes.front());
+  }
   return outcome;
 }
 
@@ -129,7 +154,21 @@ std::string rowName(const EvaluationCase& what) {
   return what.surface.empty() ? what.object : what.object + " (" + what.surface + ")";
 }
 
-void addRows(Evaluation& evaluation) {
+/// Place in the paper's Table 1, from 1; 0 for what it has not.
+std::ptrdiff_t placeInPaper(const CaseOutcome& outcome) {
+  const PaperRow* row = paperRow(outcome.what.object, outcome.what.surface);
+  return row == nullptr ? 0 : row - kPaperRows.data() + 1;
+}
+
+}  // namespace
+
+Evaluation sumUp(EvaluateSettings settings, std::vector<CaseOutcome> cases) {
+  Evaluation evaluation;
+  evaluation.settings = std::move(settings);
+  std::stable_sort(cases.begin(), cases.end(), [](const CaseOutcome& a, const CaseOutcome& b) {
+    return placeInPaper(a) < placeInPaper(b);
+  });
+  evaluation.cases = std::move(cases);
   std::vector<CaseOutcome> group;
   for (std::size_t i = 0; i < evaluation.cases.size(); ++i) {
     group.push_back(evaluation.cases[i]);
@@ -139,20 +178,17 @@ void addRows(Evaluation& evaluation) {
     group.clear();
   }
   evaluation.total = summarize("all", evaluation.cases);
+  return evaluation;
 }
-
-}  // namespace
 
 Result<Evaluation> evaluate(const EvaluateSettings& settings, const Progress& progress,
                             const std::function<void(const CaseOutcome&)>& tell) {
   const auto cases = findCases(settings);
   if (!cases) return tl::unexpected<Error>(cases.error());
-  Evaluation evaluation;
-  evaluation.settings = settings;
-  evaluation.cases = CaseQueue(settings, *cases, progress, tell).run();
-  std::erase_if(evaluation.cases, [](const CaseOutcome& outcome) { return !outcome.done; });
+  auto outcomes = CaseQueue(settings, *cases, progress, tell).run();
+  std::erase_if(outcomes, [](const CaseOutcome& outcome) { return !outcome.done; });
+  Evaluation evaluation = sumUp(settings, std::move(outcomes));
   evaluation.interrupted = evaluation.cases.size() < cases->size();
-  addRows(evaluation);
   return evaluation;
 }
 

@@ -19,16 +19,18 @@ namespace ifa {
 enum class Parity { kEven, kOdd };
 
 struct EvaluateSettings {
+  std::string label;             ///< what reports call these settings; empty: made of them
   std::filesystem::path folder;  ///< one folder per object in it, named NAME or NAME@SURFACE
   std::string planner = "hybrid";
   GraphOptions graph;  ///< for "graph"; a database that is named serves one object
   std::uint64_t seed = 1;
-  double timeLimitSeconds = 0;   ///< per case; 0: never
-  double restitutionScale = 1;   ///< plans with so many times the objects' restitution, up to 0.95
-  bool fit = false;              ///< looks for the restitution (docs/fitting.md)
-  int jobs = 1;                  ///< cases at a time; each uses all cores by itself
-  std::size_t limit = 0;         ///< cases per object folder, the first ones; 0: all
-  std::optional<Parity> parity;  ///< only cases whose name ends in such a number
+  double timeLimitSeconds = 0;  ///< per case; 0: never
+  double restitutionScale = 1;  ///< plans with so many times the objects' restitution, up to 0.95
+  bool fit = false;             ///< looks for the restitution (docs/fitting.md)
+  std::vector<OrientationWish> orientations;  ///< of every case (docs/controls.md)
+  int jobs = 1;                               ///< cases at a time; each uses all cores by itself
+  std::size_t limit = 0;                      ///< cases per object folder, the first ones; 0: all
+  std::optional<Parity> parity;               ///< only cases whose name ends in such a number
 };
 
 /// One case: a sound with its labels, or a signature alone.
@@ -37,6 +39,19 @@ struct EvaluationCase {
   std::string name;
   std::filesystem::path sound;   ///< NAME.wav (or another sound), NAME.signature.json or .mid
   std::filesystem::path labels;  ///< NAME.txt; empty for contacts alone
+  std::filesystem::path places;  ///< NAME.json with known positions; empty where there is none
+};
+
+/// A contact event that lasts: the sound's beside the motion's. Seconds, centroids after the start.
+struct ContinuousContact {
+  double targetDuration = 0, duration = 0;
+  double targetCentroid = 0, centroid = 0;
+};
+
+/// How far a motion's contacts begin from their known places, seen from above, m (IFA, Table 2).
+struct PlaceErrors {
+  double mean = 0, largest = 0;
+  double longestSide = 0;  ///< of the box around the known places
 };
 
 /// What came out of a case.
@@ -53,6 +68,10 @@ struct CaseOutcome {
   double startError = 0;                         ///< largest |contact start - target|, s
   std::vector<double> bends;                     ///< of every contact
   std::vector<double> arrivalBends;              ///< likewise
+  std::vector<ContactFactors> factors;           ///< likewise
+  std::vector<ContinuousContact> continuous;     ///< of the contacts whose sound lasts
+  std::optional<PlaceErrors> places;             ///< where they were known
+  std::vector<double> orientationErrors;         ///< of each wish, rad
   std::int64_t events = -1;                      ///< in the database; negative: none was used
   double goodSeconds = -1;  ///< until Score 0.3 was reached ("graph"); negative: it was not
 };
@@ -77,7 +96,7 @@ struct EvaluationRow {
 
 struct Evaluation {
   EvaluateSettings settings;
-  std::vector<CaseOutcome> cases;   ///< those that were done, in order of object and name
+  std::vector<CaseOutcome> cases;   ///< those that were done
   std::vector<EvaluationRow> rows;  ///< per object folder
   EvaluationRow total;
   bool interrupted = false;
@@ -97,10 +116,8 @@ struct Evaluation {
 /// The row that sums up `cases`.
 [[nodiscard]] EvaluationRow summarize(std::string name, const std::vector<CaseOutcome>& cases);
 
-/// The table of rows alone, then (if asked) that of the cases, in Markdown.
-[[nodiscard]] std::string evaluationMarkdown(const Evaluation& evaluation, bool withCases);
-
-/// The whole report in JSON.
-[[nodiscard]] std::string evaluationJson(const Evaluation& evaluation);
+/// The cases as an evaluation, with its rows and total. Rows of the paper's Table 1 come in its
+/// order, others before them as they are.
+[[nodiscard]] Evaluation sumUp(EvaluateSettings settings, std::vector<CaseOutcome> cases);
 
 }  // namespace ifa

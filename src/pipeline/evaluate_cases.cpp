@@ -99,6 +99,9 @@ void addCasesOf(const fs::path& folder, const EvaluateSettings& settings,
     EvaluationCase what = caseOf(path);
     if (what.name.empty() || !chosen(what.name, settings)) continue;
     if (settings.limit > 0 && count++ >= settings.limit) return;
+    std::error_code code;
+    const fs::path places = folder / (what.name + ".json");
+    if (fs::is_regular_file(places, code)) what.places = places;
     what.object = name.substr(0, at);
     if (at != std::string::npos) what.surface = name.substr(at + 1);
     cases.push_back(std::move(what));

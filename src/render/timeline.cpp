@@ -6,6 +6,7 @@
 
 #include "base/file.h"
 #include "render/svg_text.h"
+#include "render/ticks.h"
 #include "render/timeline_parts.h"
 
 namespace ifa {
@@ -97,9 +98,7 @@ void addPanels(const View& view, SvgText& svg) {
   svg.rectangle("panel", kLeft, kForceTop, kPlot, kForceBottom - kForceTop);
   svg.label("text", kLeft - 10, kWaveTop + kWaveHeight / 2 + 4, "end", "sound");
   svg.label("text", kLeft - 10, (kForceTop + kForceBottom) / 2 + 4, "end", "motion");
-  const double rough = (view.to - view.from) / 8;
-  const double power = std::pow(10, std::floor(std::log10(rough)));
-  const double step = power * (rough / power < 2 ? 1 : rough / power < 5 ? 2 : 5);
+  const double step = tickStep(view.to - view.from, 14);
   for (double time = std::ceil(view.from / step) * step; time <= view.to; time += step) {
     svg.line("grid", view.x(time), kWaveTop, view.x(time), kForceBottom);
     svg.label("faint", view.x(time), kForceBottom + 15, "middle", fmt::format("{:.3g} s", time));
