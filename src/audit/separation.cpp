@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "audit/separation.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace ifa {
+
+namespace {
+
+using Eigen::Vector3d;
+using Corners = Eigen::Matrix3Xd;
+
+constexpr double kFinestTurn = 1e-4;  // rad of the search for a direction
+
+double beginOf(const LaidMotion& laid) {
+  return laid.motion->trajectory.front().time + laid.motion->sound.firstContact;
+}
+double endOf(const LaidMotion& laid) {
+  return laid.motion->trajectory.back().time + laid.motion->sound.firstContact;
+}
+
+struct Where {
+  Vector3d centre;
+  Eigen::Quaterniond turned;
+};
+
+Where whereAt(const LaidMotion& laid, double time) {
+  const auto& samples = laid.motion->trajectory;
+  const double own = time - laid.motion->sound.firstContact;
+  const auto after = std::upper_bound(samples.begin(), samples.end(), own,
+                                      [](double t, const MotionSample& s) { return t < s.time; });
+  const MotionSample& b = after == samples.end() ? samples.back() : *after;
+  const MotionSample& a = after == samples.begin() ? samples.front() : *(after - 1);
+  const double share =
+      b.time > a.time ? std::clamp((own - a.time) / (b.time - a.time), 0.0, 1.0) : 0;
+  const Eigen::Quaterniond laidDown(Eigen::AngleAxisd(laid.turn, Vector3d::UnitZ()));
+  const Vector3d centre = a.position + share * (b.position - a.position);
+  return {laidDown * centre + Vector3d(laid.shift.x(), laid.shift.y(), 0),
+          laidDown * a.orientation.slerp(share, b.orientation)};
+}
+
+Corners cornersAt(const LaidMotion& laid, const Where& where) {
+  const auto& hull = laid.body->hull;
+  Corners corners(3, static_cast<Eigen::Index>(hull.size()));
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    corners.col(static_cast<Eigen::Index>(i)) = where.centre + where.turned * hull[i];
+  }
+  return corners;
+}
+
+/// Room between two bodies along a unit direction that points from `one` to `other`, m.
+double room(const Corners& one, const Corners& other, const Vector3d& direction) {
+  return (direction.transpose() * other).minCoeff() - (direction.transpose() * one).maxCoeff();
+}
+
+/// The most room that any direction gives, which is the distance of bodies that do not meet. As a
+/// function of direction it has one summit only where it is positive, so that climbing finds it.
+double mostRoom(const Corners& one, const Corners& other, Vector3d direction) {
+  double best = room(one, other, direction);
+  for (double step = 0.5; step > kFinestTurn;) {
+    const Vector3d sideways = direction.unitOrthogonal(), upwards = direction.cross(sideways);
+    Vector3d better = direction;
+    for (int k = 0; k < 8; ++k) {
+      const double angle = k * 0.25 * EIGEN_PI;
+      const Vector3d tried =
+          (direction + step * (std::cos(angle) * sideways + std::sin(angle) * upwards))
+              .normalized();
+      if (const double found = room(one, other, tried); found > best) {
+        best = found;
+        better = tried;
+      }
+    }
+    if (better == direction) {
+      step *= 0.5;
+    } else {
+      direction = better;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+Separation leastSeparation(const std::vector<LaidMotion>& motions, double rate) {
+  Separation found;
+  found.least = std::numeric_limits<double>::infinity();
+  double begin = std::numeric_limits<double>::infinity(), end = -begin;
+  for (const LaidMotion& laid : motions) {
+    begin = std::min(begin, beginOf(laid));
+    end = std::max(end, endOf(laid));
+  }
+  const auto last = static_cast<long>(std::ceil((end - begin) * rate));
+  for (long k = 0; k <= last && motions.size() > 1; ++k) {
+    const double time = begin + static_cast<double>(k) / rate;
+    std::vector<Where> where;
+    for (const LaidMotion& laid : motions) where.push_back(whereAt(laid, time));
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+      for (std::size_t j = i + 1; j < motions.size(); ++j) {
+        if (time < beginOf(motions[i]) || time < beginOf(motions[j])) continue;
+        const Vector3d between = where[j].centre - where[i].centre;
+        // Balls that are further apart than what was found already need no closer look.
+        const double balls = between.norm() - motions[i].body->radius - motions[j].body->radius;
+        if (balls >= found.least) continue;
+        const Vector3d start =
+            between.norm() > 0 ? Vector3d(between.normalized()) : Vector3d::UnitX();
+        const double least =
+            mostRoom(cornersAt(motions[i], where[i]), cornersAt(motions[j], where[j]), start);
+        if (least < found.least) found = {least, i, j, time, true};
+      }
+    }
+  }
+  if (!found.known) found.least = 0;
+  return found;
+}
+
+}  // namespace ifa
