@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace ifa {
 
@@ -14,7 +15,7 @@ namespace {
 using Eigen::Vector3d;
 using Corners = Eigen::Matrix3Xd;
 
-constexpr double kFinestTurn = 1e-4;  // rad of the search for a direction
+constexpr double kFinestTurn = 1e-5;  // rad of the search for a direction
 
 double beginOf(const LaidMotion& laid) {
   return laid.motion->trajectory.front().time + laid.motion->sound.firstContact;
@@ -58,27 +59,32 @@ double room(const Corners& one, const Corners& other, const Vector3d& direction)
 }
 
 /// The most room that any direction gives, which is the distance of bodies that do not meet. As a
-/// function of direction it has one summit only where it is positive, so that climbing finds it.
-double mostRoom(const Corners& one, const Corners& other, Vector3d direction) {
-  double best = room(one, other, direction);
-  for (double step = 0.5; step > kFinestTurn;) {
+/// function of direction it has one summit only where it is positive, so that climbing finds it; it
+/// has ridges too, so every ring of directions that is tried is turned against the one before, and
+/// several must fail before a smaller one is tried.
+/// @param enough  m; more need not be found
+double mostRoom(const Corners& one, const Corners& other, Vector3d direction, double enough) {
+  constexpr int kOnRing = 8, kRings = 6;
+  constexpr double kGolden = 2.399963229728653;  // rad: no two rings are alike
+  double best = room(one, other, direction), turn = 0;
+  int failed = 0;
+  for (double step = 0.5; step > kFinestTurn && best < enough;) {
     const Vector3d sideways = direction.unitOrthogonal(), upwards = direction.cross(sideways);
-    Vector3d better = direction;
-    for (int k = 0; k < 8; ++k) {
-      const double angle = k * 0.25 * EIGEN_PI;
+    const Vector3d from = direction;
+    turn += kGolden;
+    for (int k = 0; k < kOnRing; ++k) {
+      const double angle = turn + k * 2 * std::numbers::pi / kOnRing;
       const Vector3d tried =
-          (direction + step * (std::cos(angle) * sideways + std::sin(angle) * upwards))
-              .normalized();
+          (from + step * (std::cos(angle) * sideways + std::sin(angle) * upwards)).normalized();
       if (const double found = room(one, other, tried); found > best) {
         best = found;
-        better = tried;
+        direction = tried;
       }
     }
-    if (better == direction) {
-      step *= 0.5;
-    } else {
-      direction = better;
-    }
+    failed = direction == from ? failed + 1 : 0;
+    if (failed < kRings) continue;
+    step *= 0.5;
+    failed = 0;
   }
   return best;
 }
@@ -107,8 +113,8 @@ Separation leastSeparation(const std::vector<LaidMotion>& motions, double rate) 
         if (balls >= found.least) continue;
         const Vector3d start =
             between.norm() > 0 ? Vector3d(between.normalized()) : Vector3d::UnitX();
-        const double least =
-            mostRoom(cornersAt(motions[i], where[i]), cornersAt(motions[j], where[j]), start);
+        const double least = mostRoom(cornersAt(motions[i], where[i]),
+                                      cornersAt(motions[j], where[j]), start, found.least);
         if (least < found.least) found = {least, i, j, time, true};
       }
     }

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "base/paths.h"
@@ -16,8 +17,9 @@ namespace ifa {
 namespace {
 
 constexpr int kFreeTakes = 6;
-// From one contact to the next, as a share of the body's size: hops, neither a drill nor a race.
-constexpr double kHop = 1.25;
+// From one contact to the next, in body sizes; tried in this order. On the spot is seen best, but
+// steep jumps need the friction of a body that is under way.
+constexpr std::array kHops = {1.25, 3.0, 6.25};
 
 /// Side of the square of floor that a motion covers from its first contact on, m.
 double coveredFloor(const Motion& motion) {
@@ -28,17 +30,17 @@ double coveredFloor(const Motion& motion) {
   return box.isEmpty() ? 0 : box.sizes().norm();
 }
 
-std::vector<PositionWish> hops(std::size_t contacts, double size) {
+std::vector<PositionWish> hops(std::size_t contacts, double length) {
   std::vector<PositionWish> wishes;
   for (std::size_t k = 0; k < contacts; ++k) {
-    wishes.push_back({static_cast<int>(k) + 1, {kHop * size * static_cast<double>(k), 0}});
+    wishes.push_back({static_cast<int>(k) + 1, {length * static_cast<double>(k), 0}});
   }
   return wishes;
 }
 
-Result<Motion> hopping(SynchronizeSettings settings, std::size_t contacts, double size,
+Result<Motion> hopping(SynchronizeSettings settings, std::size_t contacts, double length,
                        const Progress& progress) {
-  settings.positions = hops(contacts, size);
+  settings.positions = hops(contacts, length);
   auto found = synchronize(settings, progress);
   if (!found) return tl::unexpected(found.error());
   return std::move(found->takes.front());
@@ -92,7 +94,11 @@ Result<PlannedVoice> planVoice(const Voice& voice, const ScorePart& part, std::u
   }
   auto body = bodyAsUsed(settings, progress);
   if (!body) return tl::unexpected(body.error());
-  auto motion = hopping(settings, notes.events.size(), body->size, progress);
+  Result<Motion> motion;
+  for (const double hop : kHops) {
+    motion = hopping(settings, notes.events.size(), hop * body->size, progress);
+    if (!motion || motion->success) break;
+  }
   if (motion && !motion->success) motion = free(settings, progress);
   if (!motion) return tl::unexpected(motion.error());
   PlannedVoice planned{{voice.name, part.name, std::move(*motion), 0}, std::move(*body)};

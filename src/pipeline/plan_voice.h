@@ -23,9 +23,9 @@ inline constexpr double kEnsembleLead = 0.5;
 /// Name of the signature that a body plays, in its folder.
 inline constexpr const char* kNotesName = "notes.signature.json";
 
-/// Writes the notes of `voice` into `folder` and looks for a motion of its part's object: first one
-/// that hops on the spot (places asked for at every contact); where there is none, one that goes
-/// where it likes, and of several such the one that covers the least floor.
+/// Writes the notes of `voice` into `folder` and looks for a motion of its part's object: one that
+/// hops along a line, in hops as short as can be (places asked for at every contact); where there
+/// is none, one that goes where it likes, and of several such the one that covers the least floor.
 /// Errors: those of synchronize(). That nothing acceptable is found is none.
 [[nodiscard]] Result<PlannedVoice> planVoice(const Voice& voice, const ScorePart& part,
                                              std::uint64_t seed, const std::string& planner,
