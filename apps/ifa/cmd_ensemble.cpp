@@ -2,6 +2,7 @@
 // `ifa ensemble`: a score in, several bodies that play it out.
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -78,7 +79,7 @@ void addEnsembleCommand(CLI::App& app, CommandContext& context) {
   command->add_option("--object", options->settings.object,
                       "for a MIDI file: name (see ifa objects) or object file");
   command->add_option("--seed", options->settings.seed, "instead of the score's")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1'000'000'000'000'000}));
   command->add_option("--planner", options->settings.planner, "hybrid or shoot")
       ->capture_default_str();
   command->add_flag("--no-film", options->noFilm, "no ensemble.mp4; ifa render makes it later");
