@@ -17,6 +17,7 @@ namespace ifa {
 namespace {
 
 constexpr int kFreeTakes = 6;
+constexpr double kDeader = 1.0 / 3;  // times the restitution
 // From one contact to the next, in body sizes; tried in this order. On the spot is seen best, but
 // steep jumps need the friction of a body that is under way.
 constexpr std::array kHops = {1.25, 3.0, 6.25};
@@ -57,6 +58,16 @@ Result<Motion> free(SynchronizeSettings settings, const Progress& progress) {
   return std::move(*std::min_element(takes.begin(), takes.end(), worse));
 }
 
+/// The first attempt that succeeds, else the last one.
+Result<Motion> shortestHops(const SynchronizeSettings& settings, std::size_t contacts, double size,
+                            const Progress& progress) {
+  for (const double hop : kHops) {
+    auto motion = hopping(settings, contacts, hop * size, progress);
+    if (!motion || motion->success) return motion;
+  }
+  return free(settings, progress);
+}
+
 /// The surface's part in the object file beside the motion: its threshold of hearing is known now.
 Result<Body> bodyAsUsed(const SynchronizeSettings& settings, const Progress& progress) {
   auto chosen = loadChosenBody(settings);
@@ -94,12 +105,19 @@ Result<PlannedVoice> planVoice(const Voice& voice, const ScorePart& part, std::u
   }
   auto body = bodyAsUsed(settings, progress);
   if (!body) return tl::unexpected(body.error());
-  Result<Motion> motion;
-  for (const double hop : kHops) {
-    motion = hopping(settings, notes.events.size(), hop * body->size, progress);
-    if (!motion || motion->success) break;
+  auto motion = shortestHops(settings, notes.events.size(), body->size, progress);
+  if (motion && !motion->success && part.rests) {
+    // After a high jump only a floor that gives back next to nothing stops a body.
+    SynchronizeSettings deader = settings;
+    *deader.restitution *= kDeader;
+    auto again = bodyAsUsed(deader, progress);
+    if (!again) return tl::unexpected(again.error());
+    auto other = shortestHops(deader, notes.events.size(), again->size, progress);
+    if (!other || other->success) {
+      motion = std::move(other);
+      body = std::move(again);
+    }
   }
-  if (motion && !motion->success) motion = free(settings, progress);
   if (!motion) return tl::unexpected(motion.error());
   PlannedVoice planned{{voice.name, part.name, std::move(*motion), 0}, std::move(*body)};
   planned.player.search = watch.seconds();

@@ -26,6 +26,7 @@ inline constexpr const char* kNotesName = "notes.signature.json";
 /// Writes the notes of `voice` into `folder` and looks for a motion of its part's object: one that
 /// hops along a line, in hops as short as can be (places asked for at every contact); where there
 /// is none, one that goes where it likes, and of several such the one that covers the least floor.
+/// Where it is to rest at the end and does not, all that again with a third of the restitution.
 /// Errors: those of synchronize(). That nothing acceptable is found is none.
 [[nodiscard]] Result<PlannedVoice> planVoice(const Voice& voice, const ScorePart& part,
                                              std::uint64_t seed, const std::string& planner,
