@@ -65,7 +65,8 @@ void addRenderCommand(CLI::App& app, CommandContext& context) {
   auto options = std::make_shared<RenderOptions>();
   CLI::App* command = app.add_subcommand("render", "make a film or pictures of motions");
   command
-      ->add_option("MOTION", options->motions, "motion.json, or the folder that holds it; several")
+      ->add_option("MOTION", options->motions,
+                   "motion.json, or the folder that holds it; several; or one ensemble.json")
       ->required();
   command
       ->add_option("-o,--out", options->output,

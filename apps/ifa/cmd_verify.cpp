@@ -9,6 +9,7 @@
 
 #include "audit/audit.h"
 #include "command.h"
+#include "pipeline/ensemble_folder.h"
 #include "pipeline/motion_folder.h"
 
 namespace ifa::cli {
@@ -40,7 +41,33 @@ int verdict(const Motion& motion, const AuditReport& report, const std::string& 
   return context.succeed();
 }
 
+/// One line a body, and how near any two come.
+int verifyEnsemble(const VerifyOptions& options, CommandContext& context) {
+  const auto folder = readEnsembleFolder(options.motion);
+  if (!folder) return context.fail(folder.error());
+  std::string bad;
+  for (std::size_t i = 0; i < folder->bodies.size(); ++i) {
+    const MotionFolder& body = folder->bodies[i];
+    const std::string& name = folder->ensemble.bodies[i].name;
+    const bool good = body.motion.success && audit(body.motion, body.body).passed();
+    context.console.result(fmt::format("{}: {}", name, good ? "the audit holds" : "FAILS"));
+    if (!good && bad.empty()) bad = fmt::format("body {} does not hold its audit", name);
+  }
+  const Separation found = leastSeparation(laidMotions(*folder));
+  if (found.known) {
+    const auto& bodies = folder->ensemble.bodies;
+    context.console.result(fmt::format("nearest: {:.2f} mm, {} and {} at {:.3f} s",
+                                       1e3 * found.least, bodies[found.one].name,
+                                       bodies[found.other].name, found.time));
+    if (found.least <= 0) bad = "bodies meet";
+  }
+  if (bad.empty()) return context.succeed();
+  return context.fail({ErrorCode::kNoMotion, bad, folder->file.string(),
+                       "ifa verify of the body's folder tells more"});
+}
+
 int runVerify(const VerifyOptions& options, CommandContext& context) {
+  if (isEnsemble(options.motion)) return verifyEnsemble(options, context);
   const auto folder = readMotionFolder(options.motion, options.object);
   if (!folder) return context.fail(folder.error());
   for (const std::string& warning : folder->warnings) context.console.warn(warning);
@@ -56,7 +83,9 @@ int runVerify(const VerifyOptions& options, CommandContext& context) {
 void addVerifyCommand(CLI::App& app, CommandContext& context) {
   auto options = std::make_shared<VerifyOptions>();
   CLI::App* command = app.add_subcommand("verify", "audit a motion; exit 0 only when it holds");
-  command->add_option("MOTION", options->motion, "motion.json, or the folder that holds it")
+  command
+      ->add_option("MOTION", options->motion,
+                   "motion.json or ensemble.json, or the folder that holds it")
       ->required();
   command->add_option("--object", options->object,
                       "name or object file (default: the copy beside the motion)");

@@ -42,6 +42,7 @@ struct CommandContext {
 void addSyncCommand(CLI::App& app, CommandContext& context);
 void addDetectCommand(CLI::App& app, CommandContext& context);
 void addObjectsCommand(CLI::App& app, CommandContext& context);
+void addEnsembleCommand(CLI::App& app, CommandContext& context);
 void addSonifyCommand(CLI::App& app, CommandContext& context);
 void addRenderCommand(CLI::App& app, CommandContext& context);
 void addVerifyCommand(CLI::App& app, CommandContext& context);

@@ -37,6 +37,7 @@ void addCommands(CLI::App& app, CommandContext& context) {
   addSyncCommand(app, context);
   addDetectCommand(app, context);
   addObjectsCommand(app, context);
+  addEnsembleCommand(app, context);
   addSonifyCommand(app, context);
   addRenderCommand(app, context);
   addVerifyCommand(app, context);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "ifa/contact_signature.h"  // IWYU pragma: export
+#include "ifa/ensemble.h"           // IWYU pragma: export
 #include "ifa/event_cut.h"          // IWYU pragma: export
 #include "ifa/film.h"               // IWYU pragma: export
 #include "ifa/midi_options.h"       // IWYU pragma: export

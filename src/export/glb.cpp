@@ -79,6 +79,13 @@ Json materialJson(const MeshMaterial& material) {
   return json;
 }
 
+/// What is made of one body before anything is written.
+struct Shown {
+  const GlbBody* what;
+  DrawableMesh drawable;
+  std::vector<AnimationKey> keys;
+};
+
 void addMesh(const Mesh& mesh, const DrawableMesh& drawable, const std::string& name,
              Buffer& buffer, Json& root) {
   const auto positions = allYUp(drawable.positions);
@@ -92,7 +99,8 @@ void addMesh(const Mesh& mesh, const DrawableMesh& drawable, const std::string& 
   const int position = buffer.add(positions, "VEC3", kFloat, kVertexTarget);
   buffer.setRange(position, low, high);
   const int normal = buffer.add(allYUp(drawable.normals), "VEC3", kFloat, kVertexTarget);
-  Json primitives = Json::array(), materials = Json::array();
+  Json primitives = Json::array();
+  Json& materials = root["materials"];
   for (std::size_t i = 0; i < drawable.triangles.size(); ++i) {
     if (drawable.triangles[i].empty()) continue;
     const int indices = buffer.add(drawable.triangles[i], "SCALAR", kUnsignedInt, kIndexTarget);
@@ -102,8 +110,7 @@ void addMesh(const Mesh& mesh, const DrawableMesh& drawable, const std::string& 
     materials.push_back(
         materialJson(i < mesh.materials.size() ? mesh.materials[i] : MeshMaterial{"default"}));
   }
-  root["meshes"] = Json::array({{{"name", name}, {"primitives", primitives}}});
-  root["materials"] = materials;
+  root["meshes"].push_back({{"name", name}, {"primitives", primitives}});
 }
 
 std::array<float, 3> translation(const Pose& pose) {
@@ -119,7 +126,16 @@ std::array<float, 4> rotation(const Pose& pose) {
           static_cast<float>(q.w())};
 }
 
-void addAnimation(const std::vector<AnimationKey>& keys, Buffer& buffer, Json& root) {
+void addChannel(int input, int output, const char* path, const char* interpolation,
+                std::size_t node, Json& animation) {
+  Json& samplers = animation["samplers"];
+  animation["channels"].push_back(
+      {{"sampler", samplers.size()}, {"target", {{"node", node}, {"path", path}}}});
+  samplers.push_back({{"input", input}, {"interpolation", interpolation}, {"output", output}});
+}
+
+void addChannels(const std::vector<AnimationKey>& keys, std::size_t node, Buffer& buffer,
+                 Json& animation) {
   std::vector<float> times;
   std::vector<std::array<float, 3>> translations;
   std::vector<std::array<float, 4>> rotations;
@@ -130,15 +146,20 @@ void addAnimation(const std::vector<AnimationKey>& keys, Buffer& buffer, Json& r
   }
   const int input = buffer.add(times, "SCALAR", kFloat);
   buffer.setRange(input, Json::array({times.front()}), Json::array({times.back()}));
-  Json samplers = Json::array(), channels = Json::array();
-  const auto channel = [&](int output, const char* path) {
-    channels.push_back({{"sampler", samplers.size()}, {"target", {{"node", 0}, {"path", path}}}});
-    samplers.push_back({{"input", input}, {"interpolation", "LINEAR"}, {"output", output}});
-  };
-  channel(buffer.add(translations, "VEC3", kFloat), "translation");
-  channel(buffer.add(rotations, "VEC4", kFloat), "rotation");
-  root["animations"] =
-      Json::array({{{"name", "motion"}, {"channels", channels}, {"samplers", samplers}}});
+  addChannel(input, buffer.add(translations, "VEC3", kFloat), "translation", "LINEAR", node,
+             animation);
+  addChannel(input, buffer.add(rotations, "VEC4", kFloat), "rotation", "LINEAR", node, animation);
+}
+
+/// A body that falls in while others play already is not there before, instead of hanging in the
+/// air: its scale is 0 until then.
+void addEntrance(const Motion& motion, std::size_t node, Buffer& buffer, Json& animation) {
+  const auto begin = static_cast<float>(motion.trajectory.front().time + motion.sound.firstContact);
+  if (!(begin > 0)) return;
+  const int input = buffer.add(std::vector<float>{0, begin}, "SCALAR", kFloat);
+  buffer.setRange(input, Json::array({0}), Json::array({begin}));
+  const std::vector<std::array<float, 3>> scales = {{0, 0, 0}, {1, 1, 1}};
+  addChannel(input, buffer.add(scales, "VEC3", kFloat), "scale", "STEP", node, animation);
 }
 
 /// Flat lists of numbers and texts only: importers keep those as custom properties. The seed is a
@@ -158,15 +179,11 @@ Json extras(const Motion& motion) {
           {"contact_amplitudes", amplitudes}};
 }
 
-void addScene(const Motion& motion, const AnimationKey& rest, const std::string& name, Json& root) {
-  root["asset"] = {{"version", "2.0"}, {"generator", "Inverse Foley " + motion.program}};
+void addHeading(const std::string& program, Json& root) {
+  root["asset"] = {{"version", "2.0"}, {"generator", "Inverse Foley " + program}};
   root["scene"] = 0;
-  root["scenes"] = Json::array({{{"name", "scene"}, {"nodes", Json::array({0})}}});
-  root["nodes"] = Json::array({{{"name", name},
-                                {"mesh", 0},
-                                {"translation", translation(rest.pose)},
-                                {"rotation", rotation(rest.pose)},
-                                {"extras", extras(motion)}}});
+  root["scenes"] = Json::array({{{"name", "scene"}, {"nodes", Json::array()}}});
+  root["nodes"] = Json::array();
 }
 
 /// The scene's next node.
@@ -175,13 +192,27 @@ void addNode(Json node, Json& root) {
   root["nodes"].push_back(std::move(node));
 }
 
-/// A square at height 0, under the whole motion and ten times the body's size beyond it.
-void addFloor(const std::vector<AnimationKey>& keys, const DrawableMesh& drawable, Buffer& buffer,
-              Json& root) {
+void addBody(const Shown& shown, Json& root) {
+  addNode({{"name", shown.what->name},
+           {"mesh", root["nodes"].size()},
+           {"translation", translation(shown.keys.front().pose)},
+           {"rotation", rotation(shown.keys.front().pose)},
+           {"extras", extras(*shown.what->motion)}},
+          root);
+}
+
+/// A square at height 0, under the whole motion and ten times the largest body's size beyond it.
+void addFloor(const std::vector<Shown>& all, Buffer& buffer, Json& root) {
   float size = 0;
-  for (const auto& p : drawable.positions) size = std::max(size, std::hypot(p[0], p[1], p[2]));
   Eigen::AlignedBox2f ground;
-  for (const AnimationKey& key : keys) ground.extend(key.pose.position.head<2>().cast<float>());
+  for (const Shown& shown : all) {
+    for (const auto& p : shown.drawable.positions) {
+      size = std::max(size, std::hypot(p[0], p[1], p[2]));
+    }
+    for (const AnimationKey& key : shown.keys) {
+      ground.extend(key.pose.position.head<2>().cast<float>());
+    }
+  }
   const Eigen::Vector2f middle = ground.center();
   const float half = 0.5F * ground.sizes().maxCoeff() + 10 * size;
   std::vector<std::array<float, 3>> corners;
@@ -243,20 +274,33 @@ tl::unexpected<Error> internalError(std::string message) {
 
 }  // namespace
 
-Result<std::string> formatGlb(const Motion& motion, const Body& body,
+Result<std::string> formatGlb(const std::vector<GlbBody>& bodies,
                               const AnimationSettings& settings) {
-  if (motion.trajectory.empty()) return internalError("the motion has no samples");
-  const DrawableMesh drawable = drawableMesh(body.mesh, settings.creaseDegrees);
-  if (drawable.positions.empty()) return internalError("the mesh has no triangles with an area");
-  const auto keys = animationKeys(motion, body.mesh, settings);
-  const std::string& name = body.definition.name.empty() ? "body" : body.definition.name;
+  if (bodies.empty()) return internalError("there are no bodies");
+  std::vector<Shown> all;
+  for (const GlbBody& body : bodies) {
+    if (body.motion->trajectory.empty()) return internalError("the motion has no samples");
+    Shown shown{&body, drawableMesh(body.body->mesh, settings.creaseDegrees), {}};
+    if (shown.drawable.positions.empty()) {
+      return internalError("the mesh has no triangles with an area");
+    }
+    shown.keys = animationKeys(*body.motion, body.body->mesh, settings);
+    all.push_back(std::move(shown));
+  }
   Json root;
   Buffer buffer;
-  addScene(motion, keys.front(), name, root);
-  addMesh(body.mesh, drawable, name, buffer, root);
-  addAnimation(keys, buffer, root);
+  addHeading(bodies.front().motion->program, root);
+  for (const Shown& shown : all) addBody(shown, root);
+  root["meshes"] = root["materials"] = Json::array();
+  Json animation = {{"name", "motion"}, {"channels", Json::array()}, {"samplers", Json::array()}};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    addMesh(all[i].what->body->mesh, all[i].drawable, all[i].what->name, buffer, root);
+    addChannels(all[i].keys, i, buffer, animation);
+    if (all.size() > 1) addEntrance(*all[i].what->motion, i, buffer, animation);
+  }
+  root["animations"] = Json::array({animation});
   if (settings.floorAndLight) {
-    addFloor(keys, drawable, buffer, root);
+    addFloor(all, buffer, root);
     addLight(root);
   }
   buffer.describe(root);
@@ -265,6 +309,19 @@ Result<std::string> formatGlb(const Motion& motion, const Body& body,
     return internalError("the motion does not fit into a GLB file (4 GiB)");
   }
   return container(json, buffer.bytes());
+}
+
+Result<std::string> formatGlb(const Motion& motion, const Body& body,
+                              const AnimationSettings& settings) {
+  const std::string& name = body.definition.name;
+  return formatGlb(std::vector<GlbBody>{{&motion, &body, name.empty() ? "body" : name}}, settings);
+}
+
+Result<void> writeGlb(const std::filesystem::path& path, const std::vector<GlbBody>& bodies,
+                      const AnimationSettings& settings) {
+  const auto bytes = formatGlb(bodies, settings);
+  if (!bytes) return tl::unexpected<Error>(bytes.error());
+  return writeFileAtomically(path, *bytes);
 }
 
 Result<void> writeGlb(const std::filesystem::path& path, const Motion& motion, const Body& body,

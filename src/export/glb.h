@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "body/body.h"
 #include "export/animation_keys.h"
@@ -24,5 +25,20 @@ namespace ifa {
 /// Atomic. Errors: those of formatGlb; kBadInput when the file cannot be written.
 [[nodiscard]] Result<void> writeGlb(const std::filesystem::path& path, const Motion& motion,
                                     const Body& body, const AnimationSettings& settings = {});
+
+/// One of several bodies in one file.
+struct GlbBody {
+  const Motion* motion = nullptr;
+  const Body* body = nullptr;
+  std::string name;  ///< of its node and mesh
+};
+
+/// The same for bodies that share a sound, each with a node and all in one animation. One whose
+/// motion begins later has the scale 0 until then (a STEP channel of its own).
+[[nodiscard]] Result<std::string> formatGlb(const std::vector<GlbBody>& bodies,
+                                            const AnimationSettings& settings = {});
+[[nodiscard]] Result<void> writeGlb(const std::filesystem::path& path,
+                                    const std::vector<GlbBody>& bodies,
+                                    const AnimationSettings& settings = {});
 
 }  // namespace ifa

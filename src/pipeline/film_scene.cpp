@@ -81,6 +81,26 @@ FilmOptions withSize(FilmOptions options) {
   return options;
 }
 
+Motion markedContacts(const std::vector<FilmPart>& parts) {
+  const Motion& first = *parts.front().motion;
+  Motion marked;
+  marked.object = first.object;
+  marked.score = first.score;
+  marked.sound = first.sound;
+  for (const FilmPart& part : parts) {
+    if (&part != &parts.front() && !part.start) continue;
+    const double later = part.start.value_or(first.sound.firstContact) - first.sound.firstContact;
+    for (MotionContact contact : part.motion->contacts) {
+      contact.time += later;
+      contact.end += later;
+      marked.contacts.push_back(contact);
+    }
+  }
+  std::stable_sort(marked.contacts.begin(), marked.contacts.end(),
+                   [](const MotionContact& a, const MotionContact& b) { return a.time < b.time; });
+  return marked;
+}
+
 FilmScene::FilmScene(const std::vector<FilmPart>& parts, const Sound* sound,
                      const FilmOptions& options)
     : options_(options) {
@@ -89,8 +109,8 @@ FilmScene::FilmScene(const std::vector<FilmPart>& parts, const Sound* sound,
   std::vector<Actor> actors;
   double end = 0;
   for (const FilmPart& part : parts) {
-    actors.push_back(actorOf(part, start));
-    end = std::max(end, part.motion->trajectory.back().time + start);
+    actors.push_back(actorOf(part, part.start.value_or(start)));
+    end = std::max(end, part.motion->trajectory.back().time + actors.back().start);
   }
   const int count = options.sideBySide ? static_cast<int>(parts.size()) : 1;
   for (int i = 0; i < count; ++i) {
@@ -106,8 +126,9 @@ FilmScene::FilmScene(const std::vector<FilmPart>& parts, const Sound* sound,
   frames_ = static_cast<std::size_t>(
       std::max(1.0, std::ceil(seconds / options.speed * options.framesPerSecond)));
   if (!options.overlay) return;
-  overlay_.emplace(first, sound != nullptr ? *sound : Sound{}, seconds, options.speed,
-                   options.speed / options.framesPerSecond, options.width, options.height);
+  overlay_.emplace(markedContacts(parts), sound != nullptr ? *sound : Sound{}, seconds,
+                   options.speed, options.speed / options.framesPerSecond, options.width,
+                   options.height);
 }
 
 double FilmScene::timeOf(std::size_t frame) const {

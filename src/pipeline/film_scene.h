@@ -21,12 +21,18 @@ struct FilmPart {
   const Motion* motion = nullptr;
   const Body* body = nullptr;
   std::string name;  ///< written on its picture when there are several
+  /// s of the film's sound at its first contact; none: with the first part's.
+  std::optional<double> start = std::nullopt;
 };
+
+/// The contacts that a film marks: the first part's, or those of all parts where each has a start
+/// of its own. Without a trajectory.
+[[nodiscard]] Motion markedContacts(const std::vector<FilmPart>& parts);
 
 /// Pictures of a film by number. Thread safe.
 class FilmScene {
  public:
-  /// @param parts    at least one, each with samples; all start at the first one's first contact
+  /// @param parts    at least one, each with samples
   /// @param sound    the first one's, or none
   /// @param options  checked, with a size
   FilmScene(const std::vector<FilmPart>& parts, const Sound* sound, const FilmOptions& options);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The stages of `ifa render`.
+#include <algorithm>
 #include <cmath>
 
 #include "ifa/film.h"
+#include "pipeline/ensemble_folder.h"
 #include "pipeline/motion_folder.h"
 #include "pipeline/write_film.h"
 
@@ -54,7 +56,8 @@ Result<std::vector<MotionFolder>> readAll(const std::vector<fs::path>& motions) 
 Result<void> refuseToOverwrite(const fs::path& output, const std::vector<MotionFolder>& folders) {
   for (const MotionFolder& folder : folders) {
     std::error_code code;
-    if (!fs::equivalent(output, fs::absolute(folder.file).parent_path(), code)) continue;
+    const bool own = fs::equivalent(output, fs::absolute(folder.file).parent_path(), code);
+    if (!own && !isEnsemble(output)) continue;
     return usage("the motion's own sound would be overwritten", output.string(),
                  "choose another folder");
   }
@@ -75,6 +78,57 @@ Result<void> write(Kind kind, const fs::path& output, const std::vector<FilmPart
   return {};
 }
 
+/// What is to be shown, with all that it refers to.
+struct Show {
+  std::vector<MotionFolder> folders;
+  std::vector<FilmPart> parts;
+  std::optional<Sound> sound;
+  std::vector<std::string> warnings;
+};
+
+Result<Show> readMotions(const std::vector<fs::path>& motions, bool withSound) {
+  auto folders = readAll(motions);
+  if (!folders) return tl::unexpected(folders.error());
+  Show show;
+  show.folders = std::move(*folders);
+  if (withSound) {
+    auto read = readSoundBeside(show.folders.front());
+    if (!read) return tl::unexpected(read.error());
+    show.sound = std::move(*read);
+  }
+  for (const MotionFolder& folder : show.folders) {
+    show.parts.push_back({&folder.motion, &folder.body, nameOf(folder)});
+  }
+  return show;
+}
+
+/// Bodies where they are laid, each with its own first contact.
+Result<Show> readWholeEnsemble(const fs::path& place, bool withSound) {
+  auto folder = readEnsembleFolder(place);
+  if (!folder) return tl::unexpected(folder.error());
+  Show show;
+  if (withSound) {
+    auto read = readEnsembleSound(*folder, show.warnings);
+    if (!read) return tl::unexpected(read.error());
+    show.sound = std::move(*read);
+  }
+  show.folders = std::move(folder->bodies);
+  for (std::size_t i = 0; i < show.folders.size(); ++i) {
+    MotionFolder& body = show.folders[i];
+    body.motion = folder->ensemble.bodies[i].place.apply(std::move(body.motion));
+    show.parts.push_back({&body.motion, &body.body, folder->ensemble.bodies[i].name,
+                          body.motion.sound.firstContact});
+  }
+  return show;
+}
+
+Result<Show> readShow(const std::vector<fs::path>& motions, bool withSound) {
+  const bool any = std::any_of(motions.begin(), motions.end(), isEnsemble);
+  if (!any) return readMotions(motions, withSound);
+  if (motions.size() == 1) return readWholeEnsemble(motions.front(), withSound);
+  return usage("an ensemble is shown alone", "MOTION", "name the one ensemble, or motions only");
+}
+
 }  // namespace
 
 Result<std::vector<std::string>> renderMotions(const std::vector<fs::path>& motions,
@@ -87,27 +141,19 @@ Result<std::vector<std::string>> renderMotions(const std::vector<fs::path>& moti
   if (still && (*kind != Kind::kPng || !std::isfinite(*still))) {
     return usage("goes with a PNG file and a time in seconds", "--at", {});
   }
-  auto folders = readAll(motions);
-  if (!folders) return tl::unexpected(folders.error());
+  auto show = readShow(motions, *kind != Kind::kPng || options.overlay);
+  if (!show) return tl::unexpected(show.error());
   if (*kind == Kind::kFolder) {
-    if (auto good = refuseToOverwrite(output, *folders); !good) {
+    if (auto good = refuseToOverwrite(output, show->folders); !good) {
       return tl::unexpected(good.error());
     }
   }
-  std::optional<Sound> sound;
-  if (*kind != Kind::kPng || options.overlay) {
-    auto read = readSoundBeside(folders->front());
-    if (!read) return tl::unexpected(read.error());
-    sound = std::move(*read);
-  }
-  std::vector<FilmPart> parts;
-  std::vector<std::string> warnings;
-  for (const MotionFolder& folder : *folders) {
-    parts.push_back({&folder.motion, &folder.body, nameOf(folder)});
+  std::vector<std::string> warnings = show->warnings;
+  for (const MotionFolder& folder : show->folders) {
     warnings.insert(warnings.end(), folder.warnings.begin(), folder.warnings.end());
   }
-  const auto written =
-      write(*kind, output, parts, sound ? &*sound : nullptr, options, still, progress, warnings);
+  const auto written = write(*kind, output, show->parts, show->sound ? &*show->sound : nullptr,
+                             options, still, progress, warnings);
   if (!written) return tl::unexpected(written.error());
   return warnings;
 }

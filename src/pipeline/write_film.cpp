@@ -139,7 +139,7 @@ Result<void> writeContactSheet(const fs::path& path, const std::vector<FilmPart>
   options.overlay = false;
   if (auto good = check(parts, options); !good) return good;
   if (auto good = checkWritable(path); !good) return good;
-  const Motion& motion = *parts.front().motion;
+  const Motion motion = markedContacts(parts);
   const std::size_t contacts = motion.contacts.size();
   if (contacts == 0) return badInput("has no contacts to show", parts.front().name);
   const FilmScene scene(parts, nullptr, options);

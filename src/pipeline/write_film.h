@@ -25,7 +25,7 @@ namespace ifa {
                                          const std::vector<FilmPart>& parts, const Sound* sound,
                                          const FilmOptions& options, const Progress& progress);
 
-/// Writes a PNG with one picture for each contact of the first part, at most kMostSheetPictures,
+/// Writes a PNG with one picture for each of markedContacts(), at most kMostSheetPictures,
 /// evenly chosen. Errors: as above.
 [[nodiscard]] Result<void> writeContactSheet(const std::filesystem::path& path,
                                              const std::vector<FilmPart>& parts,

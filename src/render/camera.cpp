@@ -118,11 +118,15 @@ void CameraPath::follow(CameraKind kind, const FrameMargins& margins) {
   keepInView(margins);
 }
 
+// Who has come to rest stays in the picture until all have.
 void CameraPath::gather(const std::vector<Actor>& actors) {
+  double end = -std::numeric_limits<double>::infinity();
+  for (const Actor& actor : actors) {
+    end = std::max(end, actor.motion->trajectory.back().time + actor.start);
+  }
   for (const Actor& actor : actors) {
     const float radius = actor.geometry->radius();
     const auto& samples = actor.motion->trajectory;
-    const double end = samples.back().time + actor.start;
     const double begin = std::max(samples.front().time, -kLeadIn) + actor.start;
     for (double time = std::min(begin, end);; time += kBallStep) {
       const double now = std::min(time, end);

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <tuple>
 
 #include "base/file.h"
 #include "signature/midi_track.h"
@@ -195,6 +196,40 @@ Result<std::vector<Label>> parseMidi(std::string_view bytes, const std::string& 
   if (!chosen) return tl::unexpected<Error>(chosen.error());
   const Clock clock(file->division, std::move(chosen->tempos));
   return labelsOf(std::move(chosen->notes), clock, options, place);
+}
+
+Result<std::vector<ScoreNote>> parseMidiNotes(std::string_view bytes, const std::string& place) {
+  const auto file = readChunks(bytes, place);
+  if (!file) return tl::unexpected<Error>(file.error());
+  if (file->format == 2) {
+    return badInput("holds tunes that do not belong together (format 2)", place,
+                    "save it as format 0 or 1");
+  }
+  const auto all = choose(*file, {}, place);
+  if (!all) return tl::unexpected<Error>(all.error());
+  const Clock clock(file->division, all->tempos);
+  std::vector<ScoreNote> notes;
+  for (std::size_t i = 0; i < file->tracks.size(); ++i) {
+    for (const MidiNote& note : file->tracks[i].notes) {
+      notes.push_back({clock.seconds(note.start), static_cast<int>(i) + 1, note.channel, note.key,
+                       note.velocity / kTopVelocity});
+      if (notes.size() > kMaxLabels || !(notes.back().time <= kMaxSeconds)) {
+        return badInput(fmt::format("the note at byte {} is one too many, or after {:g} s",
+                                    note.offset, kMaxSeconds),
+                        place, "cut out the part that is wanted");
+      }
+    }
+  }
+  std::stable_sort(notes.begin(), notes.end(), [](const ScoreNote& one, const ScoreNote& other) {
+    return std::tie(one.time, one.track, one.key) < std::tie(other.time, other.track, other.key);
+  });
+  return notes;
+}
+
+Result<std::vector<ScoreNote>> readMidiNotes(const std::filesystem::path& path) {
+  const auto bytes = readFile(path, kMaxBytes);
+  if (!bytes) return tl::unexpected<Error>(bytes.error());
+  return parseMidiNotes(*bytes, path.string());
 }
 
 Result<std::vector<Label>> readMidi(const std::filesystem::path& path, const MidiOptions& options) {

@@ -27,4 +27,18 @@ namespace ifa {
 [[nodiscard]] Result<std::vector<Label>> readMidi(const std::filesystem::path& path,
                                                   const MidiOptions& options = {});
 
+/// One note of a score.
+struct ScoreNote {
+  double time = 0;           ///< s from the start of the file
+  int track = 1;             ///< from 1, in the file's order
+  int channel = 1, key = 0;  ///< 1 to 16; 0 to 127
+  double velocity = 1;       ///< 0 to 1
+};
+
+/// Every note by itself, in order of time (then of track and key), for who gives them to several
+/// bodies. Errors: as parseMidi; kBadInput for format 2, whose tracks do not play together.
+[[nodiscard]] Result<std::vector<ScoreNote>> parseMidiNotes(std::string_view bytes,
+                                                            const std::string& place);
+[[nodiscard]] Result<std::vector<ScoreNote>> readMidiNotes(const std::filesystem::path& path);
+
 }  // namespace ifa

@@ -10,6 +10,8 @@
 #include "body/object_file.h"
 #include "database/database.h"
 #include "database/journal.h"
+#include "ensemble/ensemble_file.h"
+#include "ensemble/voices.h"
 #include "fuzz/fuzz_targets.h"
 #include "fuzz/scratch.h"
 #include "sound/onset_detector.h"
@@ -25,6 +27,30 @@ void readAsSound(std::string_view bytes) {
   require(!sound->samples.empty() && sound->rate > 0);
   for (const float sample : sound->samples) require(std::isfinite(sample));
   if (sound->samples.size() < 20000) static_cast<void>(detectContacts(*sound));
+}
+
+void readAsScore(std::string_view bytes) {
+  const auto score = parseScore(bytes, "score.json");
+  if (!score) return;
+  std::vector<ScoreNote> notes;
+  for (int i = 0; i < 24; ++i) notes.push_back({0.15 * i, 1 + i % 2, 1, 60 + i % 3, 0.5});
+  const auto voices = dealVoices(*score, notes, "notes");
+  if (!voices) return;
+  for (const Voice& voice : *voices) {
+    require(voice.part < score->parts.size() && !voice.notes.empty());
+    require(signatureOf(voice, true, 0).events.size() == voice.notes.size());
+  }
+}
+
+void readAsEnsemble(std::string_view bytes) {
+  const auto ensemble = parseEnsemble(bytes, "ensemble.json");
+  if (!ensemble) return;
+  const auto again = parseEnsemble(formatEnsemble(*ensemble), "ensemble.json");
+  require(again && again->bodies.size() == ensemble->bodies.size());
+  for (std::size_t i = 0; i < again->bodies.size(); ++i) {
+    require(again->bodies[i].place.turn == ensemble->bodies[i].place.turn);
+    require(again->bodies[i].place.shift == ensemble->bodies[i].place.shift);
+  }
 }
 
 void readAsObject(std::string_view bytes) {

@@ -19,20 +19,24 @@ void readAsSound(std::string_view bytes);
 void readAsObject(std::string_view bytes);
 void readAsMesh(std::string_view bytes);
 void readAsDatabase(std::string_view bytes);
+void readAsScore(std::string_view bytes);
+void readAsEnsemble(std::string_view bytes);
 
 struct Target {
   std::string_view name;  ///< also of its folder in tests/fuzz/corpus
   void (*run)(std::string_view bytes);
 };
 
-inline constexpr std::array<Target, 9> kTargets = {{{"labels", readAsLabels},
-                                                    {"csv", readAsCsv},
-                                                    {"midi", readAsMidi},
-                                                    {"cues", readAsCues},
-                                                    {"signature", readAsSignature},
-                                                    {"sound", readAsSound},
-                                                    {"object", readAsObject},
-                                                    {"mesh", readAsMesh},
-                                                    {"database", readAsDatabase}}};
+inline constexpr std::array<Target, 11> kTargets = {{{"labels", readAsLabels},
+                                                     {"csv", readAsCsv},
+                                                     {"midi", readAsMidi},
+                                                     {"cues", readAsCues},
+                                                     {"signature", readAsSignature},
+                                                     {"sound", readAsSound},
+                                                     {"object", readAsObject},
+                                                     {"mesh", readAsMesh},
+                                                     {"database", readAsDatabase},
+                                                     {"score", readAsScore},
+                                                     {"ensemble", readAsEnsemble}}};
 
 }  // namespace ifa::fuzz

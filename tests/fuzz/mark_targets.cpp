@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Targets: marks of every kind.
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -67,6 +68,11 @@ void readAsMidi(std::string_view bytes) {
     useLabels(*labels);
   }
   static_cast<void>(parseMidi(bytes, "fuzz", {1, 10, true}));
+  const auto notes = parseMidiNotes(bytes, "fuzz");
+  if (!notes) return;
+  require(!notes->empty() &&
+          std::is_sorted(notes->begin(), notes->end(),
+                         [](const ScoreNote& a, const ScoreNote& b) { return a.time < b.time; }));
 }
 
 void readAsCues(std::string_view bytes) {

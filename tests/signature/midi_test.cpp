@@ -182,5 +182,29 @@ TEST(ReadMidi, MissingFile) {
   EXPECT_FALSE(readMidi(folder / "none.mid"));
 }
 
+TEST(ParseMidiNotes, KeepsEveryNoteWithItsTrackAndKey) {
+  const auto notes = parseMidiNotes(midiFile(1, 100,
+                                             {tempo(0, 1000000) + noteOn(100, 42, 127, 10),
+                                              noteOn(50, 36, 64, 10) + noteOn(50, 38, 32, 10)}),
+                                    "a.mid");
+  ASSERT_TRUE(notes) << notes.error().text();
+  ASSERT_EQ(notes->size(), 3U);
+  EXPECT_NEAR((*notes)[0].time, 0.5, 1e-9);
+  EXPECT_EQ((*notes)[0].key, 36);
+  EXPECT_EQ((*notes)[0].track, 2);
+  EXPECT_EQ((*notes)[0].channel, 10);
+  EXPECT_DOUBLE_EQ((*notes)[0].velocity, 64 / 127.0);
+  EXPECT_EQ((*notes)[1].key, 42) << "of two at once that of the first track";
+  EXPECT_NEAR((*notes)[2].time, 1, 1e-9);
+}
+
+TEST(ParseMidiNotes, RefusesTunesThatDoNotBelongTogetherAndNoNotes) {
+  const auto two = parseMidiNotes(midiFile(2, 100, {noteOn(0, 1, 1)}), "a.mid");
+  ASSERT_FALSE(two);
+  EXPECT_THAT(two.error().text(), HasSubstr("format 2"));
+  EXPECT_FALSE(parseMidiNotes(midiFile(1, 100, {tempo(0, 1000000)}), "a.mid"));
+  EXPECT_FALSE(parseMidiNotes("RIFF", "a.mid"));
+}
+
 }  // namespace
 }  // namespace ifa
