@@ -58,7 +58,7 @@ JobEnd runJob(const Job& job, const JobSlots::Turn& turn,
     end.child.kind = ChildEnd::Kind::kCancelled;
     return end;
   }
-  end.child = runChild(thisProgram(), job.arguments,
+  end.child = runChild(job.program, job.arguments,
                        {[&](std::string_view line) { tellLine(line, end, tell); }, goOn});
   return end;
 }

@@ -23,7 +23,8 @@ struct JobEnd {
 };
 
 struct Job {
-  std::vector<std::string> arguments;  ///< of this program; --json-progress is among them
+  std::string program;                 ///< the file to run
+  std::vector<std::string> arguments;  ///< --json-progress is among them
   std::function<bool()> goOn;          ///< false when the studio ends
   /// Called when the child has ended, in the connection's thread; what it returns is the data of
   /// the event "done", or of "failed" where it has a message and nothing else was made.

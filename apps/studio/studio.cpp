@@ -279,7 +279,8 @@ class Studio::Routes {
       store_->remove(*session);
       return answer(response, Refusal{400, "the sound broke off on its way", "try again"});
     }
-    const Job job = {{"studio-hear", original.string(), folder.string(), "--json-progress"},
+    const Job job = {settings_.program,
+                     {"studio-hear", original.string(), folder.string(), "--json-progress"},
                      [this] { return !stopping_; },
                      {}};
     const JobEnd end = runJob(job, turn, [](const std::string&, const Json&) { return true; });
@@ -340,6 +341,7 @@ class Studio::Routes {
       return answer(response, Refusal{507, "the marks cannot be written", "is the disk full?"});
     }
     Job job;
+    job.program = settings_.program;
     job.arguments =
         syncArguments(*wanted, *folder / "sound.wav", where / "marks.csv", where / "out");
     job.goOn = [this] { return !stopping_; };
@@ -376,6 +378,7 @@ class Studio::Routes {
     auto turn = std::make_shared<JobSlots::Turn>(slots_.enter());
     if (!turn->queued()) return answer(response, busy());
     Job job;
+    job.program = settings_.program;
     job.arguments = {"render",
                      takeFolder(*plan, number).string(),
                      "--json-progress",

@@ -9,6 +9,7 @@
 
 #include "ifa/result.h"
 #include "studio/bounded_server.h"
+#include "studio/child_program.h"
 #include "studio/pages.h"
 
 namespace ifa::studio {
@@ -18,6 +19,7 @@ struct StudioSettings {
   int port = 0;                    ///< 0: any that is free
   std::filesystem::path folder;    ///< of the sessions
   Pages pages;
+  std::string program = thisProgram();  ///< that does the jobs
   std::size_t jobs = 2;          ///< that run at a time
   std::size_t waitingJobs = 16;  ///< more are refused
   std::size_t connections = 32;  ///< answered at a time; others wait
