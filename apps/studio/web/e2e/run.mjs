@@ -56,7 +56,7 @@ async function edit(page) {
   assert.equal(await marks(page), before - 1);
   await page.keyboard.press('Control+z');
   assert.equal(await marks(page), before);
-  await drag(page, start);
+  await drag(page);
   const labels = await download(page, () => page.click('#labels-out'));
   const lines = readFileSync(labels.path, 'utf8').trim().split('\n');
   assert.equal(lines.length, before);
@@ -68,7 +68,8 @@ async function edit(page) {
   assert.equal(await marks(page), before);
 }
 
-async function drag(page, start) {
+async function drag(page) {
+  const start = await startOf(page, 1);
   const box = await page.locator('.mark').nth(1).boundingBox();
   await page.mouse.move(box.x + box.width / 2, box.y + 60);
   await page.mouse.down();

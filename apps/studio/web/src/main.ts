@@ -354,6 +354,7 @@ function showChoice(): void {
   const object = chosenObject();
   const picture = $('object').querySelector<HTMLElement>('.picture')!;
   picture.style.backgroundImage = object ? pictureOf(object.name) : 'none';
+  picture.textContent = object ? '' : '?';
   $('object-title').textContent = object?.title ?? 'Choose an object';
   $('object-note').textContent = object ? object.material || 'change…' : 'what made the sound?';
   $('face-row').hidden = !object || object.faces.length === 0;
@@ -727,7 +728,9 @@ async function start(): Promise<void> {
   const id = /^#s=([0-9a-f]{32})$/.exec(location.hash)?.[1];
   try {
     const [list, before] = await Promise.all([api.objects(), id ? api.session(id) : null]);
-    catalogue = list;
+    // Dice first: what most sounds here are of.
+    const isDie = ({name}: api.CatalogueObject): boolean => /^d\d+$/.test(name);
+    catalogue = [...list.filter(isDie).sort((a, b) => a.faces.length - b.faces.length), ...list.filter((one) => !isDie(one))];
     fillGrid($('object-grid'), $<HTMLInputElement>('object-search'), catalogue, chooseObject);
     if (before) await openSession(before);
   } catch (error) {

@@ -17,7 +17,10 @@ export function fillGrid(grid: HTMLElement, search: HTMLInputElement, objects: r
     const picture = document.createElement('span');
     picture.className = 'picture';
     picture.style.backgroundImage = pictureOf(object.name);
-    button.append(picture, object.title);
+    const frame = document.createElement('span');
+    frame.className = 'frame';
+    frame.append(picture);
+    button.append(frame, object.title);
     button.dataset['name'] = object.name;
     button.addEventListener('click', () => choose(object.name));
     return button;
@@ -30,6 +33,8 @@ export function fillGrid(grid: HTMLElement, search: HTMLInputElement, objects: r
     });
   });
   search.addEventListener('keydown', (event) => {
-    if (event.key === 'Enter') buttons.find((button) => !button.hidden)?.click();
+    if (event.key !== 'Enter') return;
+    event.preventDefault(); // the button that has the focus afterwards would take the key too
+    buttons.find((button) => !button.hidden)?.click();
   });
 }

@@ -65,7 +65,7 @@ export class TakeScene {
   private readonly looking = new THREE.Vector3();
   private readonly light = new THREE.DirectionalLight(0xfff4e4, 2.4);
   private readonly sky = new THREE.HemisphereLight(0xffffff, 0x998f84, 1.5);
-  private readonly floor: THREE.Mesh<THREE.CircleGeometry, THREE.MeshLambertMaterial>;
+  private readonly floor: THREE.Mesh<THREE.CircleGeometry, THREE.ShadowMaterial>;
   private readonly grid: THREE.GridHelper;
   private readonly spots = new THREE.Group();
   /** Seconds of the animation at second 0 of the sound: `ifa sync` may put silence before it. */
@@ -85,12 +85,13 @@ export class TakeScene {
     // Trajectories count from the first contact, sounds from their start.
     this.aim = new Aim(motion, -firstContact);
     const bounds = boundsOf(motion);
-    this.still = bounds.radius < 7 * this.radius ? bounds.center : null;
-    const sight = Math.min(bounds.radius + 1.6 * this.radius, 7 * this.radius);
-    this.floor = new THREE.Mesh(new THREE.CircleGeometry(60 * this.radius + bounds.radius, 64), new THREE.MeshLambertMaterial());
+    // A small body that goes far is followed, so that one sees how it lies.
+    this.still = bounds.radius < 3 * this.radius ? bounds.center : null;
+    const sight = Math.min(bounds.radius + 1.4 * this.radius, 3.6 * this.radius);
+    this.floor = new THREE.Mesh(new THREE.CircleGeometry(60 * this.radius + bounds.radius, 64), new THREE.ShadowMaterial({opacity: 0.32, fog: false}));
     this.floor.rotation.x = -Math.PI / 2;
     this.floor.receiveShadow = true;
-    this.grid = new THREE.GridHelper(120 * this.radius, 60);
+    this.grid = new THREE.GridHelper(160 * this.radius, 80);
     this.grid.position.y = 1e-3 * this.radius;
     this.setLight(sight);
     this.scene.add(this.body, this.floor, this.grid, this.spots, this.light, this.light.target, this.sky);
@@ -129,7 +130,7 @@ export class TakeScene {
     this.camera.near = distance / 50;
     this.camera.far = distance * 40;
     this.camera.lookAt(0, 0, 0);
-    this.scene.fog = new THREE.Fog(0, 2 * distance, 7 * distance);
+    this.scene.fog = new THREE.Fog(0, 1.1 * distance, 3.6 * distance);
   }
 
   private addPath(motion: Motion): void {
@@ -160,7 +161,6 @@ export class TakeScene {
 
   setTheme(ground: string, line: string): void {
     this.scene.background = new THREE.Color(ground);
-    this.floor.material.color.set(ground);
     (this.scene.fog as THREE.Fog).color.set(ground);
     const material = this.grid.material as THREE.LineBasicMaterial;
     material.vertexColors = false;

@@ -310,9 +310,9 @@ export class Timeline {
         const band = Math.floor(bands[y]!);
         const part = bands[y]! - band;
         const power = spectrum.power[band]! * (1 - part) + (spectrum.power[band + 1] ?? 0) * part;
-        const level = Math.min(1, Math.max(0, 1 + (10 * Math.log10(power + 1e-20) - full) / 70));
+        const level = Math.min(1, Math.max(0, 1 + (10 * Math.log10(power + 1e-20) - full) / 66));
         const at = 4 * (y * width + x);
-        for (let c = 0; c < 3; ++c) image.data[at + c] = ground[c]! + (ink[c]! - ground[c]!) * level * level;
+        for (let c = 0; c < 3; ++c) image.data[at + c] = ground[c]! + (ink[c]! - ground[c]!) * level ** 1.5;
         image.data[at + 3] = 255;
       }
     }
