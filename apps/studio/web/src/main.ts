@@ -318,6 +318,7 @@ async function toggleLoop(): Promise<void> {
 }
 
 let turn = 0;
+let drawn = '';
 const idleStart = performance.now();
 function frame(): void {
   requestAnimationFrame(frame);
@@ -325,25 +326,27 @@ function frame(): void {
   const time = player.position;
   timeline.setPosition(time);
   $('clock').textContent = `${time.toFixed(3)} s`;
-  drawSmall(time); // first: the chosen take's camera is the large picture's afterwards
   const take = takes[saved.take - 1];
-  if (take?.scene && stage) {
-    take.scene.setTime(time, controls ?? undefined);
-    controls?.update();
-    stage.draw(take.scene, $<HTMLCanvasElement>('large'));
-  }
+  if (!take?.scene || !stage) return;
+  ++turn;
+  // While something is planned, the processor is the planner's.
+  const small = !job && turn % 4 === 0 && drawSmall(time);
+  take.scene.setTime(time, controls ?? undefined);
+  controls?.update();
+  const now = `${saved.plan?.number} ${saved.take} ${time} ${take.scene.camera.position.toArray()} ${innerWidth} ${innerHeight} ${theme}`;
+  if (now === drawn && !small && turn > 8) return;
+  drawn = now;
+  stage.drawLarge(take.scene);
 }
 
-/** One of the small pictures a frame: they may come late, the large one may not. */
-function drawSmall(time: number): void {
-  if (takes.length === 0 || !stage || !player) return;
+/** One of the small pictures at a time: they may come late, the large one may not. Whether one was drawn. */
+function drawSmall(time: number): boolean {
+  const take = takes[(turn / 4) % takes.length];
+  if (!take?.scene || !stage || !player) return false;
   const still = matchMedia('(prefers-reduced-motion: reduce)').matches;
-  turn = (turn + 1) % takes.length;
-  const take = takes[turn]!;
-  if (!take.scene) return;
-  const running = player.playing || still;
-  take.scene.setTime(running ? time : ((performance.now() - idleStart) / 1000) % (player.duration + 0.4));
-  stage.draw(take.scene, take.canvas);
+  take.scene.setTime(player.playing || still ? time : ((performance.now() - idleStart) / 1000) % (player.duration + 0.4));
+  stage.drawSmall(take.scene, take.canvas);
+  return true;
 }
 
 // ---- what fell, and how --------------------------------------------------------------------------
@@ -471,7 +474,7 @@ function dropTakes(): void {
   $('takes-list').replaceChildren();
   for (const id of ['verdict', 'exports', 'legend']) $(id).hidden = true;
   $('empty').hidden = false;
-  $<HTMLCanvasElement>('large').width = 1;
+  $('large').hidden = true;
 }
 
 function takeButton(number: number): {button: HTMLButtonElement; canvas: HTMLCanvasElement} {
@@ -489,7 +492,7 @@ function takeButton(number: number): {button: HTMLButtonElement; canvas: HTMLCan
 async function theStage(): Promise<Stage> {
   const module = await import('./stage');
   if (stage) return stage;
-  stage = new module.Stage();
+  stage = new module.Stage($<HTMLCanvasElement>('large'));
   if (!stage.works) toast('This browser draws no 3D (WebGL); films and files can be had all the same.');
   return stage;
 }
@@ -520,14 +523,18 @@ async function showPlan(): Promise<void> {
     $('takes-list').append(element);
   });
   $('empty').hidden = true;
+  $('large').hidden = !stage?.works;
+  turn = 0;
   paintTakes();
   chooseTake(Math.min(saved.take, takes.length));
 }
 
+let theme = '';
 function paintTakes(): void {
   const style = getComputedStyle(document.documentElement);
+  theme = style.getPropertyValue('--paper').trim();
   for (const {scene, motion} of takes) {
-    scene?.setTheme(style.getPropertyValue('--paper').trim(), style.getPropertyValue('--line').trim());
+    scene?.setTheme(theme, style.getPropertyValue('--line').trim());
     scene?.setSpots(motion.contacts.map((contact) => ({
       position: contact.position, colour: bendColour(contact.bend / motion.bend.cap),
     })));

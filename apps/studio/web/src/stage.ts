@@ -60,6 +60,8 @@ export class TakeScene {
   private readonly actions: THREE.AnimationAction[] = [];
   private readonly body: THREE.Object3D;
   private readonly radius: number;
+  /** Half of what the picture shows, m. */
+  private readonly sight: number;
   private readonly aim: Aim;
   private readonly still: THREE.Vector3 | null;
   private readonly looking = new THREE.Vector3();
@@ -71,7 +73,8 @@ export class TakeScene {
   /** Seconds of the animation at second 0 of the sound: `ifa sync` may put silence before it. */
   readonly shift: number;
 
-  constructor(gltf: {scene: THREE.Group; animations: THREE.AnimationClip[]}, motion: Motion, firstContact: number) {
+  constructor(gltf: {scene: THREE.Group; animations: THREE.AnimationClip[]}, motion: Motion, firstContact: number,
+              shadowPixels: number) {
     this.shift = motion.sound.first_contact - firstContact;
     this.body = gltf.scene;
     this.body.traverse((part) => {
@@ -87,16 +90,16 @@ export class TakeScene {
     const bounds = boundsOf(motion);
     // A small body that goes far is followed, so that one sees how it lies.
     this.still = bounds.radius < 3 * this.radius ? bounds.center : null;
-    const sight = Math.min(bounds.radius + 1.4 * this.radius, 3.6 * this.radius);
+    this.sight = Math.min(bounds.radius + 1.4 * this.radius, 4.2 * this.radius);
     this.floor = new THREE.Mesh(new THREE.CircleGeometry(60 * this.radius + bounds.radius, 64), new THREE.ShadowMaterial({opacity: 0.32, fog: false}));
     this.floor.rotation.x = -Math.PI / 2;
     this.floor.receiveShadow = true;
     this.grid = new THREE.GridHelper(160 * this.radius, 80);
     this.grid.position.y = 1e-3 * this.radius;
-    this.setLight(sight);
+    this.setLight(shadowPixels);
     this.scene.add(this.body, this.floor, this.grid, this.spots, this.light, this.light.target, this.sky);
     this.addPath(motion);
-    this.aimCamera(sight);
+    this.aimCamera();
     this.setTime(0);
   }
 
@@ -113,10 +116,10 @@ export class TakeScene {
     return radius;
   }
 
-  private setLight(sight: number): void {
-    const reach = 1.5 * sight;
+  private setLight(shadowPixels: number): void {
+    const reach = 1.5 * this.sight;
     this.light.castShadow = true;
-    this.light.shadow.mapSize.set(1024, 1024);
+    this.light.shadow.mapSize.set(shadowPixels, shadowPixels);
     this.light.shadow.radius = 4;
     this.light.shadow.bias = -2e-4;
     this.light.shadow.normalBias = 0.01 * this.radius;
@@ -124,8 +127,8 @@ export class TakeScene {
     this.light.position.set(-1.2, 3, 1.4).multiplyScalar(reach);
   }
 
-  private aimCamera(sight: number): void {
-    const distance = (1.25 * sight) / Math.sin(THREE.MathUtils.degToRad(this.camera.fov / 2));
+  private aimCamera(): void {
+    const distance = (1.25 * this.sight) / Math.sin(THREE.MathUtils.degToRad(this.camera.fov / 2));
     this.camera.position.copy(new THREE.Vector3(0.5, 0.42, 1).normalize().multiplyScalar(distance));
     this.camera.near = distance / 50;
     this.camera.far = distance * 40;
@@ -176,13 +179,24 @@ export class TakeScene {
       action.time = Math.min(Math.max(soundTime + this.shift, 0), end);
     }
     this.mixer.update(0);
-    const aim = this.still ?? this.aim.at(soundTime);
+    const aim = this.still ?? this.following(soundTime);
     const step = aim.clone().sub(this.looking);
     this.looking.copy(aim);
     this.camera.position.add(step);
     this.light.position.add(step);
     this.light.target.position.copy(aim);
     controls?.target.copy(aim);
+  }
+
+  /** The smoothed path, but never so far from the body that it leaves the picture. */
+  private following(soundTime: number): THREE.Vector3 {
+    const aim = this.aim.at(soundTime);
+    const body = this.body.children[0]?.position;
+    if (!body) return aim;
+    const off = aim.sub(body);
+    const most = 0.7 * this.sight;
+    const length = off.length();
+    return off.multiplyScalar(length > 0 ? (most * Math.tanh(length / most)) / length : 1).add(body);
   }
 
   get target(): THREE.Vector3 {
@@ -215,17 +229,29 @@ export class TakeScene {
   }
 }
 
-/** Draws takes to canvases. */
+function drawsInSoftware(): boolean {
+  const context = document.createElement('canvas').getContext('webgl2');
+  const info = context?.getExtension('WEBGL_debug_renderer_info');
+  const name = info ? String(context!.getParameter(info.UNMASKED_RENDERER_WEBGL)) : '';
+  context?.getExtension('WEBGL_lose_context')?.loseContext();
+  return /swiftshader|llvmpipe|software/i.test(name);
+}
+
+/** Draws takes: the large one to the canvas of the WebGL context itself, small ones by way of it to theirs. */
 export class Stage {
   private renderer: THREE.WebGLRenderer | null = null;
   private readonly loader = new GLTFLoader();
   /** Pixels a CSS pixel: less where frames come slowly. */
-  private scale = Math.min(devicePixelRatio, 1.5);
+  private scale: number;
   private slow = 0;
+  /** Whether the processor draws: without smooth edges then, which cost it most. */
+  private readonly software = drawsInSoftware();
+  private lastLarge = 0;
 
-  constructor() {
+  constructor(private readonly large: HTMLCanvasElement) {
+    this.scale = this.software ? 1 : Math.min(devicePixelRatio, 2);
     try {
-      this.renderer = new THREE.WebGLRenderer({antialias: true, powerPreference: 'high-performance'});
+      this.renderer = new THREE.WebGLRenderer({canvas: large, antialias: !this.software, powerPreference: 'high-performance'});
       this.renderer.shadowMap.enabled = true;
       this.renderer.shadowMap.type = THREE.PCFShadowMap;
       this.renderer.toneMapping = THREE.NeutralToneMapping;
@@ -240,34 +266,49 @@ export class Stage {
 
   async load(glb: ArrayBuffer, motion: Motion, firstContact: number): Promise<TakeScene> {
     const gltf = await this.loader.parseAsync(glb, '');
-    return new TakeScene(gltf, motion, firstContact);
+    return new TakeScene(gltf, motion, firstContact, this.software ? 512 : 1024);
   }
 
-  draw(take: TakeScene, canvas: HTMLCanvasElement): void {
-    const renderer = this.renderer;
+  drawLarge(take: TakeScene): void {
+    const {large, renderer} = this;
     if (!renderer) return;
-    const started = performance.now();
-    const width = Math.max(1, Math.round(canvas.clientWidth * this.scale));
-    const height = Math.max(1, Math.round(canvas.clientHeight * this.scale));
+    const width = Math.max(1, Math.round(large.clientWidth * this.scale));
+    const height = Math.max(1, Math.round(large.clientHeight * this.scale));
+    if (large.width !== width || large.height !== height) renderer.setSize(width, height, false);
+    this.render(take, width, height);
+    const now = performance.now();
+    this.adapt(now - this.lastLarge);
+    this.lastLarge = now;
+  }
+
+  /** To be followed by drawLarge in the same frame: it is drawn in a corner of the large canvas first. */
+  drawSmall(take: TakeScene, canvas: HTMLCanvasElement): void {
+    if (!this.renderer) return;
+    const {width: mostWidth, height: mostHeight} = this.large;
+    const width = Math.min(mostWidth, canvas.clientWidth);
+    const height = Math.min(mostHeight, canvas.clientHeight);
+    if (width < 2 || height < 2) return;
     if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, {width, height});
-    const size = renderer.getSize(new THREE.Vector2());
-    if (size.x < width || size.y < height) renderer.setSize(Math.max(size.x, width), Math.max(size.y, height), false);
-    const top = renderer.getSize(size).y - height;
-    renderer.setViewport(0, top, width, height);
-    renderer.setScissor(0, top, width, height);
+    this.render(take, width, height);
+    canvas.getContext('2d')!.drawImage(this.large, 0, mostHeight - height, width, height, 0, 0, width, height);
+  }
+
+  private render(take: TakeScene, width: number, height: number): void {
+    const renderer = this.renderer!;
+    renderer.setViewport(0, 0, width, height);
+    renderer.setScissor(0, 0, width, height);
     renderer.setScissorTest(true);
     take.camera.aspect = width / height;
     take.camera.updateProjectionMatrix();
     renderer.render(take.scene, take.camera);
-    canvas.getContext('2d')!.drawImage(renderer.domElement, 0, 0, width, height, 0, 0, width, height);
-    this.adapt(performance.now() - started);
   }
 
-  /** Software rendering: coarser pictures rather than late ones. */
-  private adapt(milliseconds: number): void {
-    this.slow = milliseconds > 22 ? this.slow + 1 : Math.max(0, this.slow - 1);
-    if (this.slow < 20 || this.scale <= 0.5) return;
-    this.scale = Math.max(0.5, this.scale * 0.8);
+  /** Software rendering: coarser pictures rather than late ones. @param interval ms between two frames */
+  private adapt(interval: number): void {
+    if (interval > 500) return; // it was not drawn all the time
+    this.slow = interval > 40 ? this.slow + 1 : Math.max(0, this.slow - 1);
+    if (this.slow < 12 || this.scale <= 0.6) return;
+    this.scale = Math.max(0.6, this.scale * 0.8);
     this.slow = 0;
   }
 }
