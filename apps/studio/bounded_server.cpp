@@ -114,7 +114,10 @@ class BoundedStream final : public httplib::Stream, public Connection {
   void close() {
     ::shutdown(socket_, SHUT_WR);
     const auto end = Clock::now() + limits_.lingerTime;
-    while (waitFor(socket_, POLLIN, end) && ::recv(socket_, block_.data(), block_.size(), 0) > 0) {
+    for (std::size_t taken = 0; taken < limits_.lingerBytes && waitFor(socket_, POLLIN, end);) {
+      const ssize_t count = ::recv(socket_, block_.data(), block_.size(), 0);
+      if (count <= 0) break;
+      taken += static_cast<std::size_t>(count);
     }
     ::close(socket_);
   }
@@ -140,6 +143,8 @@ class BoundedStream final : public httplib::Stream, public Connection {
 }  // namespace
 
 Connection* Connection::current() { return served; }
+
+void BoundedServer::queueConnections() const { ::listen(svr_sock_, 256); }
 
 bool BoundedServer::process_and_close_socket(socket_t socket) {
   BoundedStream stream(socket, limits_);

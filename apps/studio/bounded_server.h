@@ -13,9 +13,10 @@ namespace ifa::studio {
 /// What a client may take.
 struct ConnectionLimits {
   std::size_t headBytes = 32 << 10;            ///< of the request line and all headers
-  std::chrono::milliseconds headTime{10000};   ///< from the connection to the end of the headers
+  std::chrono::milliseconds headTime{5000};    ///< from the connection to the end of the headers
   std::chrono::milliseconds bodyTime{60000};   ///< for the body, once it was allowed
   std::chrono::milliseconds writeTime{10000};  ///< for each block of the answer
+  std::size_t lingerBytes = 1 << 20;           ///< taken of what a refused client still sends
   std::chrono::milliseconds lingerTime{500};   ///< for what a refused client still sends
 };
 
@@ -37,6 +38,9 @@ class Connection {
 class BoundedServer : public httplib::Server {
  public:
   explicit BoundedServer(const ConnectionLimits& limits = {}) : limits_(limits) {}
+
+  /// Bound, lets more than the library's five connections wait to be accepted.
+  void queueConnections() const;
 
  private:
   bool process_and_close_socket(socket_t socket) override;

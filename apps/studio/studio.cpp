@@ -124,6 +124,12 @@ bool receiveFile(const Request& request, const ContentReader& reader, const fs::
   return whole && static_cast<bool>(stream);
 }
 
+/// A client that may not send what it sends reads the answer only when it has sent it.
+void throwAway(const Request& request, const ContentReader& reader) {
+  Connection::current()->allowBody(lengthOf(request));
+  reader([](const char*, std::size_t) { return true; });
+}
+
 Json readJson(const fs::path& path) {
   const auto text = readFile(path, kMaxJson);
   return text ? Json::parse(*text, nullptr, false) : Json();
@@ -165,6 +171,7 @@ class Studio::Routes {
     gate_.port = settings_.port == 0 ? server_.bind_to_any_port(settings_.host)
                  : server_.bind_to_port(settings_.host, settings_.port) ? settings_.port
                                                                         : -1;
+    if (gate_.port > 0) server_.queueConnections();
     return gate_.port > 0;
   }
   [[nodiscard]] int port() const { return gate_.port; }
@@ -270,7 +277,10 @@ class Studio::Routes {
 
   void postSound(const Request& request, Response& response, const ContentReader& reader) {
     auto turn = slots_.enter();
-    if (!turn.queued()) return answer(response, busy());
+    if (!turn.queued()) {
+      throwAway(request, reader);
+      return answer(response, busy());
+    }
     const auto session = store_->create();
     if (!session) return answer(response, session.error());
     const fs::path folder = *store_->folder(*session);

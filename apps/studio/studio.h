@@ -20,9 +20,9 @@ struct StudioSettings {
   std::filesystem::path folder;    ///< of the sessions
   Pages pages;
   std::string program = thisProgram();  ///< that does the jobs
-  std::size_t jobs = 2;          ///< that run at a time
-  std::size_t waitingJobs = 16;  ///< more are refused
-  std::size_t connections = 32;  ///< answered at a time; others wait
+  std::size_t jobs = 2;                 ///< that run at a time
+  std::size_t waitingJobs = 16;         ///< more are refused
+  std::size_t connections = 64;         ///< answered at a time; others wait
   ConnectionLimits limits;
 };
 

@@ -402,8 +402,8 @@ function showPlanButton(): void {
 }
 
 const kStages: Record<string, string> = {
-  learn: 'Getting to know the object', database: 'Dropping it many times', search: 'Looking for motions', takes: 'Looking for other takes',
-  film: 'Drawing the film', fit: 'Finding how bouncy it is', read: 'Reading', write: 'Writing',
+  learn: 'Getting to know the object', build: 'Dropping it many times', index: 'Dropping it many times',
+  search: 'Looking for motions', film: 'Drawing the film',
 };
 
 function showProgress(event: string, data: Record<string, unknown>): void {
