@@ -9,4 +9,5 @@ scripts/install_packages.sh build test
 scripts/install_validators.sh
 cmake --preset dev
 cmake --build --preset dev
+scripts/build_studio.sh build/dev/share/inverse-foley/studio
 ctest --preset dev -j "$(nproc)"

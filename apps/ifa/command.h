@@ -48,5 +48,7 @@ void addRenderCommand(CLI::App& app, CommandContext& context);
 void addVerifyCommand(CLI::App& app, CommandContext& context);
 void addEvaluateCommand(CLI::App& app, CommandContext& context);
 void addDatabaseCommand(CLI::App& app, CommandContext& context);
+/// Only in a build with the studio (IFA_WITH_STUDIO).
+void addStudioCommands(CLI::App& app, CommandContext& context);
 
 }  // namespace ifa::cli

@@ -43,6 +43,9 @@ void addCommands(CLI::App& app, CommandContext& context) {
   addVerifyCommand(app, context);
   addEvaluateCommand(app, context);
   addDatabaseCommand(app, context);
+#ifdef IFA_WITH_STUDIO
+  addStudioCommands(app, context);
+#endif
 }
 
 struct GlobalOptions {

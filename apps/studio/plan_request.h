@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a page asks to be planned: read from JSON, checked to the last field, and turned into the
+// arguments of `ifa sync`.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "signature/labels.h"
+#include "studio/catalogue.h"
+#include "studio/refusal.h"
+
+namespace ifa::studio {
+
+/// Every text in it is one of the catalogue's; no other text of a request becomes an argument.
+struct PlanRequest {
+  std::vector<Label> marks;  ///< with weights: 1 where a person has confirmed it
+  bool terminal = true;
+  std::string object, surface;  ///< surface empty: the object's own
+  std::string face;             ///< to lie on top at the end; empty: any
+  bool fit = false;
+  int takes = 3;          ///< 1 to 6
+  std::int64_t seed = 1;  ///< 0 to 2^53
+  double timeLimit = 20;  ///< s, 1 to 60
+};
+
+/// Most contacts that a page may ask for.
+inline constexpr std::size_t kMaxMarks = 500;
+
+/// {"marks": [{"start", "end", "weight"}], "terminal", "object", "surface", "face", "fit", "takes",
+///  "seed", "timeLimit"}; all but marks and object may be left out. Refuses (422) with the field.
+[[nodiscard]] Answer<PlanRequest> parsePlanRequest(
+    std::string_view json, const std::map<std::string, CatalogueEntry>& catalogue);
+
+/// The marks as the table that `ifa sync --labels` reads, with the weights that a label track has
+/// no place for.
+[[nodiscard]] std::string marksTable(const PlanRequest& request);
+
+[[nodiscard]] std::vector<std::string> syncArguments(const PlanRequest& request,
+                                                     const std::filesystem::path& sound,
+                                                     const std::filesystem::path& marks,
+                                                     const std::filesystem::path& output);
+
+}  // namespace ifa::studio

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+// run.mjs IFA SOUND [PICTURES]: the studio from end to end in a browser, as a person uses it. Prints
+// what it measured; ends with an error at the first thing that is not as it should be. PICTURES: a
+// folder for screenshots.
+import assert from 'node:assert/strict';
+import {spawnSync} from 'node:child_process';
+import {readFileSync} from 'node:fs';
+import {createRequire} from 'node:module';
+import {basename, join} from 'node:path';
+import {animate, chooseObject, openSound, withStudio} from './studio.mjs';
+
+const [program, sound, pictures] = process.argv.slice(2);
+const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+
+const report = (what, value) => console.log(`${what}: ${value}`);
+const picture = (page, name) => pictures && page.screenshot({path: join(pictures, name)});
+const startOf = (page, n) => page.locator('.mark').nth(n).getAttribute('aria-valuenow').then(Number);
+const marks = (page) => page.locator('.mark').count();
+
+/** No violation of the accessibility rules that is serious. */
+async function checkAccess(page, where) {
+  const found = await page.evaluate(`${axe}; axe.run(document, {resultTypes: ['violations']})`);
+  const bad = found.violations.filter(({impact}) => impact === 'serious' || impact === 'critical');
+  const told = bad.map(({id, nodes}) => `${id}: ${nodes.map((node) => node.target).join(' ')}`);
+  assert.deepEqual(told, [], `accessibility, ${where}`);
+}
+
+async function download(page, act) {
+  const [file] = await Promise.all([page.waitForEvent('download', {timeout: 60000}), act()]);
+  return {name: file.suggestedFilename(), path: await file.path()};
+}
+
+async function welcome(page, studio) {
+  const start = Date.now();
+  await page.goto(studio.address);
+  await page.waitForSelector('#drop h2');
+  report('first useful picture, ms', Date.now() - start);
+  await checkAccess(page, 'first page');
+  await page.waitForTimeout(pictures ? 2500 : 0);
+  await picture(page, 'studio-open.png');
+}
+
+async function edit(page) {
+  const before = await marks(page);
+  assert.ok(before >= 3, `${before} contacts`);
+  await page.locator('.mark').nth(1).focus();
+  const start = await startOf(page, 1);
+  await page.keyboard.press('ArrowRight');
+  assert.ok(Math.abs((await startOf(page, 1)) - start - 0.001) < 2e-4, 'an arrow is a millisecond');
+  await page.keyboard.press('Control+z');
+  assert.equal(await startOf(page, 1), start);
+  await page.keyboard.press('ArrowRight');
+  await page.keyboard.press('o');
+  assert.ok(Math.abs((await startOf(page, 1)) - start) < 0.003, 'snaps back to the attack');
+  await page.keyboard.press('Delete');
+  assert.equal(await marks(page), before - 1);
+  await page.keyboard.press('Control+z');
+  assert.equal(await marks(page), before);
+  await drag(page);
+  const labels = await download(page, () => page.click('#labels-out'));
+  const lines = readFileSync(labels.path, 'utf8').trim().split('\n');
+  assert.equal(lines.length, before);
+  assert.match(lines.at(-1), /terminal$/);
+  await page.setInputFiles('#labels-file', {name: 'x.txt', mimeType: 'text/plain', buffer: Buffer.from('0,2\t0,2\ta\n0.4\t0.5\tnon-terminal')});
+  await page.waitForFunction(() => document.querySelectorAll('.mark').length === 2);
+  assert.equal(await page.isChecked('#terminal'), false);
+  await page.keyboard.press('Control+z');
+  assert.equal(await marks(page), before);
+}
+
+async function drag(page) {
+  const start = await startOf(page, 1);
+  const box = await page.locator('.mark').nth(1).boundingBox();
+  await page.mouse.move(box.x + box.width / 2, box.y + 60);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width / 2 + 40, box.y + 60, {steps: 4});
+  await page.mouse.up();
+  assert.ok((await startOf(page, 1)) > start, 'a drag moves it');
+  await page.keyboard.press('Control+z');
+  assert.equal(await startOf(page, 1), start);
+}
+
+/** While it plays: how far the clock is from each contact when its frame is drawn, and the body from the floor. */
+async function checkSync(page, plays) {
+  const result = await page.evaluate(async (times) => {
+    const {contacts} = window.studio;
+    const worst = {clock: 0, floor: 0, frames: 0, seconds: 0};
+    for (const time of contacts) worst.floor = Math.max(worst.floor, Math.abs(window.studio.lowestAt(time)));
+    const frame = () => new Promise((resolve) => requestAnimationFrame(resolve));
+    if (!document.getElementById('play').classList.contains('on')) document.getElementById('play').click();
+    const started = performance.now();
+    for (let play = 0; play < times; ++play) {
+      const near = contacts.map(() => Infinity);
+      for (let before = window.studio.time, now = before; ; before = now) {
+        await frame();
+        now = window.studio.time;
+        ++worst.frames;
+        contacts.forEach((time, i) => (near[i] = Math.min(near[i], Math.abs(now - time))));
+        if (now < before) break;
+      }
+      if (play > 0) worst.clock = Math.max(worst.clock, ...near); // the first began somewhere
+    }
+    worst.seconds = (performance.now() - started) / 1000;
+    document.getElementById('play').click();
+    return worst;
+  }, plays);
+  report('frames a second, software rendering', (result.frames / result.seconds).toFixed(1));
+  report('body from the floor at contacts, mm at most', (1e3 * result.floor).toFixed(3));
+  report('frame nearest to a contact, ms at most', (1e3 * result.clock).toFixed(1));
+  assert.ok(result.floor < 1e-3, 'touches at every contact');
+}
+
+async function wishes(page) {
+  const ms = await animate(page, () => page.click('#faces button:has-text("6")'));
+  report('face demanded to takes, ms', Math.round(ms));
+  await page.locator('.mark').nth(1).focus();
+  await page.keyboard.press('ArrowRight');
+  assert.equal(await page.textContent('#plan'), 'Animate again');
+  report('mark moved to takes, ms', Math.round(await animate(page, () => page.keyboard.press('Control+Enter'))));
+}
+
+async function exports(page, folder) {
+  const glb = await download(page, () => page.click('a[data-file="motion.glb"]'));
+  assert.equal(readFileSync(glb.path).subarray(0, 4).toString(), 'glTF');
+  assert.equal(glb.name, `${basename(sound).replace(/\.[^.]*$/, '')}-take-1.glb`);
+  for (const [file, begins] of [['motion.usda', '#usda'], ['motion.csv', 'time'], ['sound.wav', 'RIFF']]) {
+    const got = await download(page, () => page.click(`a[data-file="${file}"]`));
+    assert.ok(readFileSync(got.path).toString('latin1').startsWith(begins), file);
+  }
+  const film = await download(page, () => page.click('#export-film'));
+  assert.equal(readFileSync(film.path).subarray(4, 8).toString(), 'ftyp');
+  // The motion that was shown, judged where it lies: beside its object.
+  const url = await page.getAttribute('a[data-file="motion.json"]', 'href');
+  const [, session, plan, take] = /sessions\/(\w+)\/plans\/(\d+)\/takes\/(\d+)/.exec(url);
+  const where = join(folder, 'sessions', session, `plan-${plan}`, 'out', `take-${take}`, 'motion.json');
+  const verdict = spawnSync(program, ['verify', where], {encoding: 'utf8'});
+  assert.equal(verdict.status, 0, verdict.stdout + verdict.stderr);
+}
+
+async function reload(page, count) {
+  await page.waitForTimeout(500); // what was changed last is saved a moment later
+  await page.reload();
+  await page.waitForSelector('.take');
+  assert.equal(await marks(page), count);
+  assert.equal(await page.locator('.take').count(), 3);
+  assert.equal(await page.getAttribute('#faces button:has-text("6")', 'aria-checked'), 'true');
+}
+
+await withStudio(program, async ({page, context, studio, folder}) => {
+  const problems = [];
+  context.on('requestfinished', (request) => {
+    const url = request.url();
+    if (!url.startsWith(studio.address) && !/^(blob|data):/.test(url)) problems.push(`asked elsewhere: ${url}`);
+  });
+  page.on('pageerror', (error) => problems.push(String(error)));
+  page.on('console', (message) => message.type() === 'error' && problems.push(message.text()));
+  await welcome(page, studio);
+  await openSound(page, sound);
+  await edit(page);
+  const count = await marks(page);
+  await chooseObject(page, 'six-sided');
+  report('first takes of an object, ms', Math.round(await animate(page)));
+  assert.equal(await page.locator('.take').count(), 3);
+  await checkSync(page, 3);
+  const box = await page.locator('#track').boundingBox();
+  await page.mouse.click(box.x + box.width * 0.43, box.y + 130);
+  assert.match(await page.textContent('#clock'), /^0\.64\d s$/);
+  await page.waitForTimeout(pictures ? 700 : 0);
+  await picture(page, 'studio-takes.png');
+  await checkAccess(page, 'editor');
+  await wishes(page);
+  await exports(page, folder);
+  await reload(page, count);
+  await page.emulateMedia({colorScheme: 'dark'});
+  await page.waitForTimeout(pictures ? 900 : 100);
+  await checkAccess(page, 'dark');
+  await picture(page, 'studio-dark.png');
+  await page.click('#object');
+  await page.waitForTimeout(pictures ? 600 : 0);
+  await checkAccess(page, 'objects');
+  await picture(page, 'studio-objects.png');
+  assert.deepEqual(problems, []);
+});
+console.log('1 passed, 0 failed');
