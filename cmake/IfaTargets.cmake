@@ -64,7 +64,7 @@ endfunction()
 # Where NAME is in IFA_TESTS_THAT_CALCULATE its oracles take long, or it compiles the library's templates.
 # The others only call the library: to optimise and instrument them takes longer than to run them, and the
 # sanitisers watch in the library over what they hand to it.
-set(IFA_TESTS_THAT_CALCULATE body dynamics sampler database affinity connection graph planner motion audit
+set(IFA_TESTS_THAT_CALCULATE body dynamics sampler database affinity connection graph planner motion audit ensemble
                              sonify render)
 function(ifa_tests NAME)
   file(GLOB SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${NAME}/*.cpp)
