@@ -40,9 +40,8 @@ Result<void> checkSettings(const SynchronizeSettings& settings) {
     return usage("does not go with the planner graph, whose database holds one restitution", "fit",
                  "use --planner hybrid");
   }
-  const bool wishes = !settings.orientations.empty() || !settings.positions.empty();
-  if (wishes && settings.planner == "graph") {
-    return usage("cannot be asked of the planner graph", "orientation or positions",
+  if (!settings.positions.empty() && settings.planner == "graph") {
+    return usage("cannot be asked of the planner graph, which does not steer flights", "positions",
                  "use --planner hybrid");
   }
   return checkRange(settings.preRollSeconds, 0, 10, "pre-roll");

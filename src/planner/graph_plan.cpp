@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/orientation_wishes.h"
+
 namespace ifa {
 
 namespace {
@@ -18,6 +20,7 @@ class PlanMaker {
     plan_.contacts[0].source.kind = SourceKind::kSampled;
     for (int level = 0; level < path_.last(); ++level) follow(level);
     sumUp(plan_, log_);
+    OrientationWishes(request_).settle(plan_);
     plan_.bendCap = largestBend();
     plan_.cut = cutOf(graph_.database().header().identity.settings);
     return std::move(plan_);

@@ -8,6 +8,7 @@
 #include "base/stopwatch.h"
 #include "planner/check_request.h"
 #include "planner/graph_plan.h"
+#include "planner/orientation_wishes.h"
 #include "planner/plan_difference.h"
 
 namespace ifa {
@@ -75,7 +76,7 @@ class GraphRun {
   void keep(const GraphPath& path) {
     Plan plan = planOf(request_, path, connector_);
     plan.solved = true;
-    if (!request_.accepted(plan)) return;
+    if (!OrientationWishes::met(plan) || !request_.accepted(plan)) return;
     found_.add(std::move(plan));
     if (secondsToGood_ < 0 && found_.reached(kGoodScore)) secondsToGood_ = watch_.seconds();
   }
@@ -83,8 +84,10 @@ class GraphRun {
   /// An event, and the motion that comes to it (5.5).
   void runSingle() {
     const SignatureEvent& only = request_.signature.events[0];
-    constexpr std::size_t kTries = 16;  // of which some may be the same take
-    const std::size_t count = kTries * static_cast<std::size_t>(request_.settings.takes);
+    constexpr std::size_t kTries = 16;      // of which some may be the same take
+    constexpr std::size_t kOriented = 512;  // of which few lie as asked
+    const std::size_t count = static_cast<std::size_t>(request_.settings.takes) *
+                              (request_.orientations.empty() ? kTries : kOriented);
     for (const PathEnd& end :
          request_.graph->bestAlone(heardOf(only), request_.signature.terminal, count)) {
       GraphPath path;
@@ -116,7 +119,11 @@ class GraphRun {
   [[nodiscard]] std::string failure() const {
     const auto& events = request_.signature.events;
     const auto next = static_cast<std::size_t>(farthest_.last()) + 1;
-    if (next >= events.size()) return "no path through the database was found";
+    if (next >= events.size()) {
+      return request_.orientations.empty()
+                 ? "no path through the database was found"
+                 : "no path through the database was found that lies as --orient asks";
+    }
     return fmt::format(
         "contact {} at {:.3f} s cannot be met: no transition of the database leads there, {:.0f} "
         "ms after the contact before; a larger database, another restitution, or a mark that was "

@@ -15,6 +15,10 @@ constexpr double kNothing = -std::numeric_limits<double>::infinity();
 constexpr std::size_t kMostLists = 200000;
 /// Times the children wanted that are looked at where few can go on.
 constexpr std::size_t kMostAhead = 512;
+/// Times the starts wanted that are looked at where few lie as asked.
+constexpr std::size_t kMoreStarts = 32;
+/// Log weight that an event is put back by whose own way leads to one that lies otherwise.
+constexpr double kLiesOtherwise = 10;
 
 }  // namespace
 
@@ -31,13 +35,33 @@ GraphSearch::GraphSearch(const PlanRequest& request, const GraphPlannerSettings&
       connector_(connector),
       graph_(*request.graph),
       lookAhead_(request, connector.model()),
+      wishes_(request),
       stop_(std::move(stop)) {
   const auto& events = request.signature.events;
   TransitionTarget second;
   second.heard = heardOf(events[1]);
   second.terminal = events.size() == 2 && request.signature.terminal;
+  const bool asked = wishes_.any(0) || wishes_.any(1);
   starts_ = graph_.bestStarts(events[1].time - events[0].time, heardOf(events[0]), second,
-                              settings.starts);
+                              settings.starts * (asked ? kMoreStarts : 1));
+  if (!asked) return;
+  std::erase_if(starts_, [this](const PathStart& start) {
+    return !lies(0, start.first) || !lies(1, start.second());
+  });
+  if (starts_.size() > settings.starts) starts_.resize(settings.starts);
+}
+
+/// As is asked for there, if anything is.
+bool GraphSearch::lies(int level, std::uint32_t event) const {
+  const auto index = static_cast<std::size_t>(level);
+  return !wishes_.any(index) || wishes_.met(index, graph_.event(event));
+}
+
+/// The same of the event that follows `event` in its simulation. Edges that lead to events that lie
+/// so start at ones like it.
+bool GraphSearch::ownWayLies(int level, std::uint32_t event) const {
+  const bool followed = (graph_.database().flags()[event] & EventRecord::kFollowed) != 0;
+  return followed && lies(level, event + 1);
 }
 
 int GraphSearch::levels() const { return static_cast<int>(request_.signature.events.size()); }
@@ -96,22 +120,26 @@ std::vector<GraphChild> GraphSearch::find(const GraphPath& path, std::size_t wan
   target.terminal = level + 2 == levels() && request_.signature.terminal;
   target.firstAmplitude = path.firstAmplitude;
   const bool ahead = level + 2 < levels() && settings_.lookAhead > 1;
+  const bool asked = wishes_.any(static_cast<std::size_t>(level) + 1);
+  const bool askedNext = ahead && wishes_.any(static_cast<std::size_t>(level) + 2);
   const TransitionSource source{left.before, left.after};
   std::vector<GraphChild> found;
   // Where most cannot go on from there, more are looked at.
   std::size_t factor = ahead ? settings_.lookAhead : 1;
-  // Few events lead to rest: before the last contact they must be looked for.
-  if (level + 3 == levels() && request_.signature.terminal) factor *= factor;
-  for (;; factor *= settings_.lookAhead) {
+  // Few events lead to rest, or to one that lies as asked: they must be looked for.
+  if ((level + 3 == levels() && request_.signature.terminal) || askedNext) factor *= factor;
+  for (;; factor *= std::max<std::size_t>(2, settings_.lookAhead)) {
     const std::vector<Transition> edges = graph_.best(source, target, wanted * factor);
     found.clear();
     for (const Transition& edge : edges) {
+      if (asked && !lies(level + 1, edge.event())) continue;
       GraphChild child{edge, 0, edge.total};
       if (ahead) lookAhead_.rate(level + 1, child);
+      if (askedNext && !ownWayLies(level + 2, edge.event())) child.worth -= kLiesOtherwise;
       if (child.bound > graph_.settings().leastVelocity) found.push_back(child);
     }
     const bool all = edges.size() < wanted * factor;
-    if (!ahead || all || found.size() >= wanted || factor >= kMostAhead) break;
+    if ((!ahead && !asked) || all || found.size() >= wanted || factor >= kMostAhead) break;
   }
   std::sort(found.begin(), found.end(), [](const GraphChild& a, const GraphChild& b) {
     return a.worth != b.worth ? a.worth > b.worth : a.transition.sibling < b.transition.sibling;

@@ -15,6 +15,7 @@
 #include "graph/contact_graph.h"
 #include "planner/graph_planner_settings.h"
 #include "planner/look_ahead.h"
+#include "planner/orientation_wishes.h"
 #include "planner/path_connector.h"
 #include "planner/planner.h"
 
@@ -89,6 +90,8 @@ class GraphSearch {
   [[nodiscard]] bool banned(const GraphPath& path, std::uint32_t sibling) const;
   [[nodiscard]] const std::vector<GraphChild>& children(const GraphPath& path);
   [[nodiscard]] std::vector<GraphChild> find(const GraphPath& path, std::size_t wanted);
+  [[nodiscard]] bool lies(int level, std::uint32_t event) const;
+  [[nodiscard]] bool ownWayLies(int level, std::uint32_t event) const;
   [[nodiscard]] double timeAfter(const GraphPath& path) const;
   [[nodiscard]] bool allConnect(const GraphPath& path);
   [[nodiscard]] bool connects(const GraphPath& path, int level);
@@ -99,6 +102,7 @@ class GraphSearch {
   PathConnector& connector_;
   const ContactGraph& graph_;
   LookAhead lookAhead_;
+  OrientationWishes wishes_;
   std::function<bool()> stop_;
   std::vector<PathStart> starts_;
   std::set<std::uint32_t> usedStarts_;

@@ -12,6 +12,8 @@ namespace ifa {
 
 namespace {
 
+constexpr double kLeastMet = 0.5;  ///< f_o at 4 degrees
+
 double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
@@ -62,9 +64,18 @@ double OrientationWishes::logAtStart(std::size_t level,
   return sum;
 }
 
+bool OrientationWishes::any(std::size_t level) const {
+  return std::any_of(request_.orientations.begin(), request_.orientations.end(),
+                     [&](const PlannedOrientation& wish) { return wish.target == level; });
+}
+
+bool OrientationWishes::met(std::size_t level, const ContactEvent& event) const {
+  return log(level, event) >= std::log(kLeastMet);
+}
+
 bool OrientationWishes::met(const Plan& settled) {
   return std::all_of(settled.contacts.begin(), settled.contacts.end(),
-                     [](const PlannedContact& contact) { return contact.factors.o >= 0.5; });
+                     [](const PlannedContact& contact) { return contact.factors.o >= kLeastMet; });
 }
 
 void OrientationWishes::settle(Plan& plan) const {

@@ -22,6 +22,10 @@ class OrientationWishes {
   /// rest, which is judged where it does.
   [[nodiscard]] double logAtStart(std::size_t level, const Eigen::Quaterniond& orientation) const;
 
+  /// Whether anything is asked for at target `level`, and whether `event` lies there as asked.
+  [[nodiscard]] bool any(std::size_t level) const;
+  [[nodiscard]] bool met(std::size_t level, const ContactEvent& event) const;
+
   /// Shows the whole plan as that image and turned so that the wishes are met best, and sets f_o of
   /// its contacts.
   void settle(Plan& plan) const;

@@ -94,6 +94,37 @@ TEST_F(GraphPlannerTest, TakesAreDifferentAndTheBestComesFirst) {
   }
 }
 
+/// Direction of the body that points up after the last contact.
+Eigen::Vector3d upAtRest(const Plan& plan) {
+  const PlannedContact& last = plan.contacts.back();
+  return last.placement.apply(last.event.after).orientation.conjugate() * Eigen::Vector3d::UnitZ();
+}
+
+TEST_F(GraphPlannerTest, LiesAsIsAsked) {
+  int sameFace = 0, otherFaces = 0;
+  for (const ContactSignature& signature : signaturesOf(graph_, 6, 2, true, 3)) {
+    PlanRequest asked = graphRequest(graphDie(), graphDieSurface(), graph_, signature);
+    asked.symmetry.clear();  // so that faces are told apart
+    const Plan free = plans(asked).front();
+    if (!free.solved) continue;
+    // A cube's faces are its axes; it may still settle by some degrees.
+    const Eigen::Vector3d lay = upAtRest(free).array().round();
+    ASSERT_EQ(lay.norm(), 1);
+    for (const Eigen::Vector3d& face : {lay, Eigen::Vector3d(-lay)}) {
+      asked.orientations = {{1, face, Eigen::Vector3d::UnitZ()}};
+      const Plan plan = plans(asked).front();
+      EXPECT_TRUE(plan.solved || face != lay);
+      if (!plan.solved) continue;
+      ++(face == lay ? sameFace : otherFaces);
+      expectMotion(asked, plan);
+      EXPECT_GT(upAtRest(plan).dot(face), std::cos(4.1 * M_PI / 180));
+      EXPECT_GE(plan.contacts.back().factors.o, 0.5);
+    }
+  }
+  EXPECT_GE(sameFace, 2);
+  EXPECT_GE(otherFaces, 1);
+}
+
 /// The paths that the search gives one after another, as far as it may ask.
 std::vector<double> scoresOf(const PlanRequest& request) {
   PathConnector connector(request);
