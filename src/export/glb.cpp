@@ -291,7 +291,8 @@ Result<std::string> formatGlb(const std::vector<GlbBody>& bodies,
   Buffer buffer;
   addHeading(bodies.front().motion->program, root);
   for (const Shown& shown : all) addBody(shown, root);
-  root["meshes"] = root["materials"] = Json::array();
+  root["meshes"] = Json::array();
+  root["materials"] = Json::array();
   Json animation = {{"name", "motion"}, {"channels", Json::array()}, {"samplers", Json::array()}};
   for (std::size_t i = 0; i < all.size(); ++i) {
     addMesh(all[i].what->body->mesh, all[i].drawable, all[i].what->name, buffer, root);

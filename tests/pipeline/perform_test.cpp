@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "audit/audit.h"
@@ -32,35 +33,48 @@ std::string tune() {
                              noteOff(10, 36) + noteOn(20, 36, 90)});
 }
 
-class Perform : public testing::Test {
- protected:
-  void SetUp() override {
-    test::writeText(folder_ / "tune.mid", tune());
-    settings_.score = folder_ / "tune.json";
-    writeScore(R"([{"name": "high", "object": "d6", "notes": [42], "colour": [0.1, 0.3, 0.9],
-                    "sound": "glass"}, {"name": "low", "object": "d6", "notes": [36]}])");
-    output_.formats = {OutputFormat::kJson, OutputFormat::kGlb};
-  }
-  void writeScore(const std::string& parts) const {
-    test::writeText(settings_.score,
+constexpr const char* kTwoDice =
+    R"([{"name": "high", "object": "d6", "notes": [42], "colour": [0.1, 0.3, 0.9],
+         "sound": "glass"}, {"name": "low", "object": "d6", "notes": [36]}])";
+
+Result<EnsembleResult> perform(EnsembleSettings settings, const std::filesystem::path& folder) {
+  OutputSettings output;
+  output.formats = {OutputFormat::kJson, OutputFormat::kGlb};
+  return performToFolder(settings, folder, output);
+}
+
+/// Where the tune and scores for it are.
+struct Desk {
+  Desk() { test::writeText(folder / "tune.mid", tune()); }
+  [[nodiscard]] EnsembleSettings score(const std::string& parts) const {
+    EnsembleSettings settings;
+    settings.score = folder / "tune.json";
+    test::writeText(settings.score,
                     R"({"format": "inverse-foley-score", "version": 1, "midi": "tune.mid",
                         "parts": )" +
                         parts + "}");
+    return settings;
   }
-  [[nodiscard]] Result<EnsembleResult> perform() const {
-    return performToFolder(settings_, folder_ / "out", output_);
-  }
-  [[nodiscard]] std::string complaint() const {
-    const auto result = perform();
-    if (result) return "";
-    EXPECT_FALSE(std::filesystem::exists(folder_ / "out")) << "no trace is left";
-    return result.error().text();
-  }
-
-  test::TemporaryFolder folder_;
-  EnsembleSettings settings_;
-  OutputSettings output_;
+  test::TemporaryFolder folder;
 };
+
+/// Played once for all tests that look at what is written.
+class Perform : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    desk_ = std::make_unique<Desk>();
+    result_ = perform(desk_->score(kTwoDice), out());
+  }
+  static void TearDownTestSuite() { desk_.reset(); }
+  void SetUp() override { ASSERT_TRUE(result_) << result_.error().text(); }
+  [[nodiscard]] static std::filesystem::path out() { return desk_->folder / "out"; }
+
+  static std::unique_ptr<Desk> desk_;
+  static Result<EnsembleResult> result_;
+};
+
+std::unique_ptr<Desk> Perform::desk_;
+Result<EnsembleResult> Perform::result_;
 
 void expectMotionOnItsNotes(const MotionFolder& body, const FloorPlace& place,
                             const std::vector<double>& notes) {
@@ -77,14 +91,13 @@ void expectMotionOnItsNotes(const MotionFolder& body, const FloorPlace& place,
 }
 
 TEST_F(Perform, TwoDicePlayTheirNotesApart) {
-  const auto result = perform();
-  ASSERT_TRUE(result) << result.error().text();
+  const auto& result = result_;
   ASSERT_EQ(result->failed(), nullptr) << result->failed()->motion.failure;
   EXPECT_LT(result->worstContact, 1e-4);
   ASSERT_TRUE(result->leastDistance);
   EXPECT_GE(*result->leastDistance, 0.008 - 1e-4) << "half of a die";
 
-  const auto read = readEnsembleFolder(folder_ / "out");
+  const auto read = readEnsembleFolder(out());
   ASSERT_TRUE(read) << read.error().text();
   ASSERT_EQ(read->bodies.size(), 2U);
   EXPECT_EQ(read->ensemble.bodies[0].name, "high");
@@ -106,8 +119,7 @@ TEST_F(Perform, TwoDicePlayTheirNotesApart) {
 }
 
 TEST_F(Perform, SoundsOnEveryNoteAndOnNothingElse) {
-  ASSERT_TRUE(perform());
-  const auto sound = readSound(folder_ / "out" / "sound.wav");
+  const auto sound = readSound(out() / "sound.wav");
   ASSERT_TRUE(sound) << sound.error().text();
   const auto energy = [&](double from, double to) {
     double sum = 0;
@@ -122,14 +134,13 @@ TEST_F(Perform, SoundsOnEveryNoteAndOnNothingElse) {
     EXPECT_GT(energy(at, at + 0.005), 5 * energy(at - 0.006, at - 0.001)) << note;
   }
   EXPECT_EQ(energy(0, 0.49), 0);
-  const auto voice = readSound(folder_ / "out/bodies/high/sound.wav");
+  const auto voice = readSound(out() / "bodies/high/sound.wav");
   ASSERT_TRUE(voice);
-  EXPECT_EQ(voice->samples.size(), readSound(folder_ / "out/bodies/low/sound.wav")->samples.size());
+  EXPECT_EQ(voice->samples.size(), readSound(out() / "bodies/low/sound.wav")->samples.size());
 }
 
 TEST_F(Perform, OneAnimationMovesAllBodies) {
-  ASSERT_TRUE(perform());
-  const std::string glb = test::readText(folder_ / "out" / "ensemble.glb");
+  const std::string glb = test::readText(out() / "ensemble.glb");
   std::uint32_t length = 0;
   std::memcpy(&length, glb.data() + 12, 4);
   const auto json = nlohmann::json::parse(glb.substr(20, length));
@@ -153,31 +164,40 @@ TEST_F(Perform, OneAnimationMovesAllBodies) {
 }
 
 TEST_F(Perform, IsTheSameForTheSameSeed) {
-  ASSERT_TRUE(perform());
-  const std::string ensemble = test::readText(folder_ / "out/ensemble.json");
-  const std::string sound = test::readText(folder_ / "out/sound.wav");
-  ASSERT_TRUE(perform());
-  EXPECT_EQ(test::readText(folder_ / "out/ensemble.json"), ensemble);
-  EXPECT_EQ(test::readText(folder_ / "out/sound.wav"), sound);
+  const auto again = desk_->folder / "again";
+  ASSERT_TRUE(perform(desk_->score(kTwoDice), again));
+  for (const char* name : {"ensemble.json", "sound.wav", "ensemble.glb", "bodies/low/sound.wav"}) {
+    EXPECT_EQ(test::readText(out() / name), test::readText(again / name)) << name;
+  }
 }
 
-TEST_F(Perform, TellsWhatCannotBePlayedBeforeItPlans) {
-  writeScore(R"([{"name": "a", "object": "teapot"}])");
-  EXPECT_THAT(complaint(), HasSubstr("teapot"));
-  writeScore(R"([{"name": "a", "object": "d6", "surface": "lava"}])");
-  EXPECT_THAT(complaint(), HasSubstr("lava"));
-  writeScore(R"([{"name": "a", "object": "d6", "sound": "jelly"}])");
-  EXPECT_THAT(complaint(), AllOf(HasSubstr("jelly"), HasSubstr("part \"a\"")));
-  writeScore(R"([{"name": "a", "object": "d6", "notes": [99]}])");
-  EXPECT_THAT(complaint(), HasSubstr("no notes for part"));
-  settings_.object = "d6";
-  EXPECT_THAT(complaint(), HasSubstr("--object"));
-  settings_.score = folder_ / "tune.mid";
-  settings_.object.clear();
-  EXPECT_THAT(complaint(), HasSubstr("--object"));
-  settings_.object = "d6";
-  settings_.planner = "graph";
-  EXPECT_THAT(complaint(), HasSubstr("--planner"));
+TEST(PerformErrors, AreToldBeforeAnythingIsPlanned) {
+  const Desk desk;
+  const auto complaint = [&](const EnsembleSettings& settings) -> std::string {
+    const auto result = perform(settings, desk.folder / "out");
+    EXPECT_FALSE(std::filesystem::exists(desk.folder / "out")) << "no trace is left";
+    return result ? "" : result.error().text();
+  };
+  const auto part = [&](const std::string& more) {
+    return desk.score(R"([{"name": "a", "notes": [42], )" + more + "}]");
+  };
+  EXPECT_THAT(complaint(part(R"("object": "teapot")")), HasSubstr("teapot"));
+  EXPECT_THAT(complaint(part(R"("object": "d6", "surface": "lava")")), HasSubstr("lava"));
+  EXPECT_THAT(complaint(part(R"("object": "d6", "sound": "jelly")")),
+              AllOf(HasSubstr("jelly"), HasSubstr("part \"a\"")));
+  EXPECT_THAT(complaint(desk.score(R"([{"name": "a", "object": "d6"}])")),
+              HasSubstr("too close for one body"));
+  EXPECT_THAT(complaint(desk.score(R"([{"name": "a", "object": "d6", "notes": [99]}])")),
+              HasSubstr("no notes for part"));
+  EnsembleSettings settings = part(R"("object": "d6")");
+  settings.object = "d6";
+  EXPECT_THAT(complaint(settings), HasSubstr("--object")) << "a score names its own";
+  settings.score = desk.folder / "tune.mid";
+  settings.object.clear();
+  EXPECT_THAT(complaint(settings), HasSubstr("--object")) << "a MIDI file names none";
+  settings = part(R"("object": "d6")");
+  settings.planner = "graph";
+  EXPECT_THAT(complaint(settings), HasSubstr("--planner"));
 }
 
 }  // namespace
