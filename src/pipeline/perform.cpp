@@ -79,12 +79,12 @@ Result<Piece> readPiece(const EnsembleSettings& settings) {
   if (!notes) return tl::unexpected(notes.error());
   if (isMidi) piece.score = scoreOfNotes(midi, *notes, settings.object);
   if (settings.seed) piece.score.seed = *settings.seed;
-  auto voices = dealVoices(piece.score, *notes, midi.string());
-  if (!voices) return tl::unexpected(voices.error());
-  piece.voices = std::move(*voices);
   if (auto good = checkParts(piece.score, settings.planner); !good) {
     return tl::unexpected(good.error());
   }
+  auto voices = dealVoices(piece.score, *notes, midi.string());
+  if (!voices) return tl::unexpected(voices.error());
+  piece.voices = std::move(*voices);
   return piece;
 }
 

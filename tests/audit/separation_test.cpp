@@ -22,7 +22,7 @@ TEST(LeastSeparation, OfBodiesAtRestIsTheirDistance) {
   EXPECT_EQ(found.one, 0U);
   EXPECT_EQ(found.other, 1U);
   // Turned by 45 degrees about the origin, the second one's edge points to the first one's face.
-  const Separation turned = leastSeparation({{&one, &die}, {&other, &die, EIGEN_PI / 4}});
+  const Separation turned = leastSeparation({{&one, &die}, {&other, &die, M_PI / 4}});
   EXPECT_NEAR(turned.least, std::sqrt(2.0) * 0.02 - 0.008 - std::sqrt(2.0) * 0.008, 1e-7);
   const Separation shifted = leastSeparation({{&one, &die}, {&other, &die, 0, {0.1, -0.02}}});
   EXPECT_NEAR(shifted.least, 0.104, 1e-7);

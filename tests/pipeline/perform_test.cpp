@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
-#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "audit/audit.h"
@@ -58,23 +57,19 @@ struct Desk {
   test::TemporaryFolder folder;
 };
 
-/// Played once for all tests that look at what is written.
+/// Played once for all that looks at what is written.
 class Perform : public testing::Test {
  protected:
-  static void SetUpTestSuite() {
-    desk_ = std::make_unique<Desk>();
-    result_ = perform(desk_->score(kTwoDice), out());
-  }
-  static void TearDownTestSuite() { desk_.reset(); }
   void SetUp() override { ASSERT_TRUE(result_) << result_.error().text(); }
-  [[nodiscard]] static std::filesystem::path out() { return desk_->folder / "out"; }
+  [[nodiscard]] std::filesystem::path out() const { return desk_.folder / "out"; }
+  void expectNotesApart();
+  void expectSoundOnNotesAlone();
+  void expectOneAnimation();
+  void expectTheSameAgain();
 
-  static std::unique_ptr<Desk> desk_;
-  static Result<EnsembleResult> result_;
+  Desk desk_;
+  Result<EnsembleResult> result_ = perform(desk_.score(kTwoDice), out());
 };
-
-std::unique_ptr<Desk> Perform::desk_;
-Result<EnsembleResult> Perform::result_;
 
 void expectMotionOnItsNotes(const MotionFolder& body, const FloorPlace& place,
                             const std::vector<double>& notes) {
@@ -90,7 +85,7 @@ void expectMotionOnItsNotes(const MotionFolder& body, const FloorPlace& place,
   EXPECT_TRUE(audit(place.apply(motion), body.body).passed()) << "where it is laid, too";
 }
 
-TEST_F(Perform, TwoDicePlayTheirNotesApart) {
+void Perform::expectNotesApart() {
   const auto& result = result_;
   ASSERT_EQ(result->failed(), nullptr) << result->failed()->motion.failure;
   EXPECT_LT(result->worstContact, 1e-4);
@@ -118,7 +113,7 @@ TEST_F(Perform, TwoDicePlayTheirNotesApart) {
   EXPECT_LT(mostBlue(1), 0.05);
 }
 
-TEST_F(Perform, SoundsOnEveryNoteAndOnNothingElse) {
+void Perform::expectSoundOnNotesAlone() {
   const auto sound = readSound(out() / "sound.wav");
   ASSERT_TRUE(sound) << sound.error().text();
   const auto energy = [&](double from, double to) {
@@ -139,7 +134,7 @@ TEST_F(Perform, SoundsOnEveryNoteAndOnNothingElse) {
   EXPECT_EQ(voice->samples.size(), readSound(out() / "bodies/low/sound.wav")->samples.size());
 }
 
-TEST_F(Perform, OneAnimationMovesAllBodies) {
+void Perform::expectOneAnimation() {
   const std::string glb = test::readText(out() / "ensemble.glb");
   std::uint32_t length = 0;
   std::memcpy(&length, glb.data() + 12, 4);
@@ -163,12 +158,19 @@ TEST_F(Perform, OneAnimationMovesAllBodies) {
   EXPECT_GE(entrances, 1) << "the second one is not there before it falls in";
 }
 
-TEST_F(Perform, IsTheSameForTheSameSeed) {
-  const auto again = desk_->folder / "again";
-  ASSERT_TRUE(perform(desk_->score(kTwoDice), again));
+void Perform::expectTheSameAgain() {
+  const auto again = desk_.folder / "again";
+  ASSERT_TRUE(perform(desk_.score(kTwoDice), again));
   for (const char* name : {"ensemble.json", "sound.wav", "ensemble.glb", "bodies/low/sound.wav"}) {
     EXPECT_EQ(test::readText(out() / name), test::readText(again / name)) << name;
   }
+}
+
+TEST_F(Perform, SlowlyPlaysAScoreFromFileToFiles) {
+  expectNotesApart();
+  expectSoundOnNotesAlone();
+  expectOneAnimation();
+  expectTheSameAgain();
 }
 
 TEST(PerformErrors, AreToldBeforeAnythingIsPlanned) {
