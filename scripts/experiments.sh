@@ -186,10 +186,10 @@ clip() {
       --surface "${row#*@}" --formats json -o "$clip"
     "$ifa" sonify "$clip" --reverb 0.3 -o "$clip.wav"
     # shellcheck disable=SC2086
-    "$ifa" render "$clip" -o "$clip.film.mp4" $film --mute
+    "$ifa" render "$clip" -o "$clip.film.mp4" $film --camera close-up --mute
   } >/dev/null 2>>"$work/log"
   ffmpeg -v error -y -i "$clip.film.mp4" -i "$clip.wav" -map 0:v -map 1:a -af apad -shortest \
-    -vf "tpad=stop_mode=clone:stop_duration=1,drawtext=text='${row%@*}, ${row#*@}':x=h/24:y=h/24:\
+    -vf "tpad=stop_mode=clone:stop_duration=0.5,drawtext=text='${row%@*}, ${row#*@}':x=h/24:y=h/24:\
 fontsize=h/18:fontcolor=white:box=1:boxcolor=black@0.5:boxborderw=6" \
     -c:v libx264 -crf 23 -pix_fmt yuv420p -c:a aac -bitexact "$clip.part.mp4"
   mv "$clip.part.mp4" "$clip.mp4"
