@@ -25,8 +25,8 @@ fi
 chosen=("$@")
 
 mapfile -t rows < <("$bin/make_evaluation" --rows)
-drops=1500 least_side=0.2 limit=10 graph_limit=5 simulations=400000 seconds=60
-places="Lego2x4@desk:3 Garlic@wood:2 TapeDispenser@wood:3"
+drops=1500 limit=10 graph_limit=5 simulations=400000 seconds=60
+places="Lego2x4@desk:3:0.2 Garlic@wood:2:0.3 TapeDispenser@wood:3:0.35"
 wishes="d6@desk:5:1=up,2=up,3=up,4=up,5=up,6=up Lego2x2@desk:10:studs=up,studs=down"
 wishes+=" Lego2x4@desk:10:studs=up,studs=down Keyboard@carpet:10:keys=up"
 sizes="6250 12500 25000 50000 100000 200000 400000"
@@ -34,8 +34,8 @@ size_rows="CoatHanger@desk d6@desk Eraser@desk Lego2x2@desk"
 film="--size 640x360"
 if [ -n "$quick" ]; then
   rows=(Eraser@desk Garlic@wood)
-  drops=40 least_side=0 limit=1 graph_limit=1 simulations=500 seconds=2
-  places="Garlic@wood:1"
+  drops=40 limit=1 graph_limit=1 simulations=500 seconds=2
+  places="Garlic@wood:1:0"
   wishes="Eraser@desk:1:0,0,1=up"
   sizes="250 500" size_rows="Eraser@desk"
   film="--size 160x90 --fps 10"
@@ -140,13 +140,13 @@ planners() {
   done
 }
 
-# Motions of 20 cm or more, as the paper's.
+# Three, two and three motions, as the paper's, whose paths are as long where drops go so far.
 table2() {
-  local row count
+  local row count side
   for place in $places; do
-    row=${place%:*} count=${place#*:}
-    evaluate "table2/$row" \
-      "$(set_of "$row" place_sets --positions --least-side $least_side)" --limit "$count"
+    IFS=: read -r row count side <<<"$place"
+    evaluate "table2/$row" "$(set_of "$row" place_sets --positions --least-side "$side")" \
+      --limit "$count"
   done
 }
 
