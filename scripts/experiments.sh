@@ -25,7 +25,7 @@ fi
 chosen=("$@")
 
 mapfile -t rows < <("$bin/make_evaluation" --rows)
-drops=1500 limit=10 graph_limit=5 simulations=400000 seconds=60
+drops=1500 limit=10 graph_limit=5 paper_limit=3 simulations=400000 seconds=60
 places="Lego2x4@desk:3:0.2 Garlic@wood:2:0.3 TapeDispenser@wood:3:0.35"
 wishes="d6@desk:5:1=up,2=up,3=up,4=up,5=up,6=up Lego2x2@desk:10:studs=up,studs=down"
 wishes+=" Lego2x4@desk:10:studs=up,studs=down Keyboard@carpet:10:keys=up"
@@ -34,7 +34,7 @@ size_rows="CoatHanger@desk d6@desk Eraser@desk Lego2x2@desk"
 film="--size 640x360"
 if [ -n "$quick" ]; then
   rows=(Eraser@desk Garlic@wood)
-  drops=40 limit=1 graph_limit=1 simulations=500 seconds=2
+  drops=40 limit=1 graph_limit=1 paper_limit=1 simulations=500 seconds=2
   places="Garlic@wood:1:0"
   wishes="Eraser@desk:1:0,0,1=up"
   sizes="250 500" size_rows="Eraser@desk"
@@ -97,10 +97,10 @@ report() {
 
 # search VARIANT ROW: planner "graph" by one way of reading the paper (docs/branch-and-bound.md).
 search() {
-  local variant=$1 row=$2 name=${2%@*} kind=sets cut=audible options=() set
+  local variant=$1 row=$2 name=${2%@*} kind=sets cut=audible count=$graph_limit options=() set
   [ ! -e "$work/$variant/$row.json" ] || return 0
   case $variant in
-    paper_cut | paper) kind=paper_sets cut=paper ;;
+    paper_cut | paper) kind=paper_sets cut=paper count=$paper_limit ;;
   esac
   case $variant in
     exact) options=(--no-symmetry) ;;
@@ -109,7 +109,7 @@ search() {
   set=$(set_of "$row" $kind --cut $cut)
   XDG_CACHE_HOME=$large_cache "$ifa" database build "$name" --surface "${row#*@}" \
     -n "$simulations" --cut $cut >/dev/null 2>>"$work/log"
-  XDG_CACHE_HOME=$large_cache evaluate "$variant/$row" "$set" --limit "$graph_limit" --jobs 2 \
+  XDG_CACHE_HOME=$large_cache evaluate "$variant/$row" "$set" --limit "$count" --jobs 2 \
     --planner graph --early-exit 1 --simulations "$simulations" --processor-time \
     --time-limit "$seconds" --cut $cut "${options[@]}"
   rm -rf "$large_cache"
@@ -219,9 +219,10 @@ reel() {
 page() {
   shopt -s nullglob
   report hybrid -- "$work"/hybrid/*.json
-  local others=("$work"/{shoot,graph,paper_cut}/*.json)
+  local others=("$work"/{shoot,graph}/*.json)
   [ ${#others[@]} -eq 0 ] ||
     report planners --limit $graph_limit -- "$work"/hybrid/*.json "${others[@]}"
+  report paper_cut -- "$work"/paper_cut/*.json
   report readings -- "$work"/{exact,printed,paper}/*.json
   report table2 -- "$work"/table2/*.json
   report orientations -- "$work"/unoriented/*.json "$work"/orientations/*.json

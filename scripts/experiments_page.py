@@ -26,8 +26,10 @@ SECTIONS = [
      "[evaluation sets](../evaluation.md): drops of another engine, with wrong restitution and size, heard with errors. "
      "*f_v* is the geometric mean over contacts."),
     ("planners", "Planners side by side", ["Charts"], "The first five signatures of each row. `graph` is the paper's search, with "
-     "events that also stand for their images under the body's symmetry, no early exit, time of the processor; once "
-     "with audible events, once with the paper's own cut of events (signatures of the same drops cut likewise)."),
+     "events that also stand for their images under the body's symmetry, no early exit, time of the processor."),
+    ("paper_cut", "The paper's own cut of events", ["Charts"], "Planner `graph` as above, but every impulse above zero is "
+     "part of an event, as in the paper: databases, and signatures of the same drops, cut likewise. The first three of each "
+     "row."),
     ("readings", "Other readings of the paper", ["Charts"], "Planner `graph` without images under symmetry; as printed "
      "(the reference of velocities, and flights that are blended and shown at another pace); the latter with the paper's "
      "own cut of events."),
@@ -105,7 +107,7 @@ def asked(work):
     """Lines "asked | found" of what there is."""
     for report in read(work / "hybrid.json"):
         yield from of_hybrid(report)
-    for report in read(work / "planners.json"):
+    for report in read(work / "planners.json") + read(work / "paper_cut.json"):
         if report["planner"] == "graph":
             yield from of_planner(report)
     yield from of_places(read(work / "table2.json"))
