@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "body/object_file.h"
-#include "sampler/simulator_comparison.h"
 #include "sampler/paper_rows.h"
+#include "sampler/simulator_comparison.h"
 
 namespace {
 

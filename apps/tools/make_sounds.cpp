@@ -14,12 +14,12 @@
 #include "export/motion_json.h"
 #include "sampler/drop_statistics.h"
 #include "sampler/initial_state.h"
+#include "sampler/paper_rows.h"
 #include "sampler/simulator_comparison.h"
 #include "signature/labels.h"
 #include "sonify/room.h"
 #include "sonify/sonify.h"
 #include "sound/band_energy.h"
-#include "sampler/paper_rows.h"
 
 namespace {
 
