@@ -191,7 +191,7 @@ clip() {
   ffmpeg -v error -y -i "$clip.film.mp4" -i "$clip.wav" -map 0:v -map 1:a -af apad -shortest \
     -vf "tpad=stop_mode=clone:stop_duration=0.5,drawtext=text='${row%@*}, ${row#*@}':x=h/24:y=h/24:\
 fontsize=h/18:fontcolor=white:box=1:boxcolor=black@0.5:boxborderw=6" \
-    -c:v libx264 -crf 23 -pix_fmt yuv420p -c:a aac -bitexact "$clip.part.mp4"
+    -c:v libx264 -crf 18 -pix_fmt yuv420p -c:a aac -bitexact "$clip.part.mp4"
   mv "$clip.part.mp4" "$clip.mp4"
   rm -r "$clip.film.mp4" "$clip.wav" "$clip"
 }
@@ -212,8 +212,8 @@ reel() {
     echo "file '$row.mp4'" >>"$work/reel/list"
   done
   [ -s "$work/reel/list" ] || return 0
-  ffmpeg -v error -y -f concat -safe 0 -i "$work/reel/list" -c copy -movflags +faststart \
-    "$out/reel.mp4"
+  ffmpeg -v error -y -f concat -safe 0 -i "$work/reel/list" -c:v libx264 -crf 29 -preset slow \
+    -c:a copy -bitexact -movflags +faststart "$out/reel.mp4"
 }
 
 page() {
