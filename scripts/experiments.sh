@@ -25,8 +25,8 @@ fi
 chosen=("$@")
 
 mapfile -t rows < <("$bin/make_evaluation" --rows)
-drops=1500 least_side=0.2 limit=10 graph_limit=5 simulations=400000 seconds=60
-places="Lego2x4@desk:3 Garlic@wood:2 TapeDispenser@wood:3"
+drops=1500 limit=10 graph_limit=5 paper_limit=3 simulations=400000 seconds=60
+places="Lego2x4@desk:3:0.2 Garlic@wood:2:0.3 TapeDispenser@wood:3:0.35"
 wishes="d6@desk:5:1=up,2=up,3=up,4=up,5=up,6=up Lego2x2@desk:10:studs=up,studs=down"
 wishes+=" Lego2x4@desk:10:studs=up,studs=down Keyboard@carpet:10:keys=up"
 sizes="6250 12500 25000 50000 100000 200000 400000"
@@ -34,8 +34,8 @@ size_rows="CoatHanger@desk d6@desk Eraser@desk Lego2x2@desk"
 film="--size 640x360"
 if [ -n "$quick" ]; then
   rows=(Eraser@desk Garlic@wood)
-  drops=40 least_side=0 limit=1 graph_limit=1 simulations=500 seconds=2
-  places="Garlic@wood:1"
+  drops=40 limit=1 graph_limit=1 paper_limit=1 simulations=500 seconds=2
+  places="Garlic@wood:1:0"
   wishes="Eraser@desk:1:0,0,1=up"
   sizes="250 500" size_rows="Eraser@desk"
   film="--size 160x90 --fps 10"
@@ -97,10 +97,10 @@ report() {
 
 # search VARIANT ROW: planner "graph" by one way of reading the paper (docs/branch-and-bound.md).
 search() {
-  local variant=$1 row=$2 name=${2%@*} kind=sets cut=audible options=() set
+  local variant=$1 row=$2 name=${2%@*} kind=sets cut=audible count=$graph_limit options=() set
   [ ! -e "$work/$variant/$row.json" ] || return 0
   case $variant in
-    paper_cut | paper) kind=paper_sets cut=paper ;;
+    paper_cut | paper) kind=paper_sets cut=paper count=$paper_limit ;;
   esac
   case $variant in
     exact) options=(--no-symmetry) ;;
@@ -109,7 +109,7 @@ search() {
   set=$(set_of "$row" $kind --cut $cut)
   XDG_CACHE_HOME=$large_cache "$ifa" database build "$name" --surface "${row#*@}" \
     -n "$simulations" --cut $cut >/dev/null 2>>"$work/log"
-  XDG_CACHE_HOME=$large_cache evaluate "$variant/$row" "$set" --limit "$graph_limit" --jobs 2 \
+  XDG_CACHE_HOME=$large_cache evaluate "$variant/$row" "$set" --limit "$count" --jobs 2 \
     --planner graph --early-exit 1 --simulations "$simulations" --processor-time \
     --time-limit "$seconds" --cut $cut "${options[@]}"
   rm -rf "$large_cache"
@@ -140,13 +140,13 @@ planners() {
   done
 }
 
-# Motions of 20 cm or more, as the paper's.
+# Three, two and three motions, as the paper's, whose paths are as long where drops go so far.
 table2() {
-  local row count
+  local row count side
   for place in $places; do
-    row=${place%:*} count=${place#*:}
-    evaluate "table2/$row" \
-      "$(set_of "$row" place_sets --positions --least-side $least_side)" --limit "$count"
+    IFS=: read -r row count side <<<"$place"
+    evaluate "table2/$row" "$(set_of "$row" place_sets --positions --least-side "$side")" \
+      --limit "$count"
   done
 }
 
@@ -186,12 +186,12 @@ clip() {
       --surface "${row#*@}" --formats json -o "$clip"
     "$ifa" sonify "$clip" --reverb 0.3 -o "$clip.wav"
     # shellcheck disable=SC2086
-    "$ifa" render "$clip" -o "$clip.film.mp4" $film --mute
+    "$ifa" render "$clip" -o "$clip.film.mp4" $film --camera close-up --mute
   } >/dev/null 2>>"$work/log"
   ffmpeg -v error -y -i "$clip.film.mp4" -i "$clip.wav" -map 0:v -map 1:a -af apad -shortest \
-    -vf "tpad=stop_mode=clone:stop_duration=1,drawtext=text='${row%@*}, ${row#*@}':x=h/24:y=h/24:\
+    -vf "tpad=stop_mode=clone:stop_duration=0.5,drawtext=text='${row%@*}, ${row#*@}':x=h/24:y=h/24:\
 fontsize=h/18:fontcolor=white:box=1:boxcolor=black@0.5:boxborderw=6" \
-    -c:v libx264 -crf 23 -pix_fmt yuv420p -c:a aac -bitexact "$clip.part.mp4"
+    -c:v libx264 -crf 18 -pix_fmt yuv420p -c:a aac -bitexact "$clip.part.mp4"
   mv "$clip.part.mp4" "$clip.mp4"
   rm -r "$clip.film.mp4" "$clip.wav" "$clip"
 }
@@ -212,16 +212,17 @@ reel() {
     echo "file '$row.mp4'" >>"$work/reel/list"
   done
   [ -s "$work/reel/list" ] || return 0
-  ffmpeg -v error -y -f concat -safe 0 -i "$work/reel/list" -c copy -movflags +faststart \
-    "$out/reel.mp4"
+  ffmpeg -v error -y -f concat -safe 0 -i "$work/reel/list" -c:v libx264 -crf 29 -preset slow \
+    -c:a copy -bitexact -movflags +faststart "$out/reel.mp4"
 }
 
 page() {
   shopt -s nullglob
   report hybrid -- "$work"/hybrid/*.json
-  local others=("$work"/{shoot,graph,paper_cut}/*.json)
+  local others=("$work"/{shoot,graph}/*.json)
   [ ${#others[@]} -eq 0 ] ||
     report planners --limit $graph_limit -- "$work"/hybrid/*.json "${others[@]}"
+  report paper_cut -- "$work"/paper_cut/*.json
   report readings -- "$work"/{exact,printed,paper}/*.json
   report table2 -- "$work"/table2/*.json
   report orientations -- "$work"/unoriented/*.json "$work"/orientations/*.json

@@ -26,14 +26,16 @@ SECTIONS = [
      "[evaluation sets](../evaluation.md): drops of another engine, with wrong restitution and size, heard with errors. "
      "*f_v* is the geometric mean over contacts."),
     ("planners", "Planners side by side", ["Charts"], "The first five signatures of each row. `graph` is the paper's search, with "
-     "events that also stand for their images under the body's symmetry, no early exit, time of the processor; once "
-     "with audible events, once with the paper's own cut of events (signatures of the same drops cut likewise)."),
+     "events that also stand for their images under the body's symmetry, no early exit, time of the processor."),
+    ("paper_cut", "The paper's own cut of events", ["Charts"], "Planner `graph` as above, but every impulse above zero is "
+     "part of an event, as in the paper: databases, and signatures of the same drops, cut likewise. The first three of each "
+     "row."),
     ("readings", "Other readings of the paper", ["Charts"], "Planner `graph` without images under symmetry; as printed "
      "(the reference of velocities, and flights that are blended and shown at another pace); the latter with the paper's "
      "own cut of events."),
     ("table2", "Table 2: places", ["Places"], "Known places of each drop's contacts were labelled with normal errors of 5 mm on x and "
      "y, and the planner was given the labels. Errors are against the true places. Drops whose path's box has a side "
-     "of 20 cm or more, as the paper's."),
+     "of 20 cm or more, garlic 30 cm, the tape dispenser 35 cm: near the paper's, as far as drops go so far."),
     ("orientations", "Orientations", ["Orientations"], "`--orient last:FACE=up`: the body is to come to rest so."),
     ("database_size", "Figure 16: Score against the size of the database", ["Charts"], "Planner `graph`, one sound an object, the "
      "same for all sizes, no early exit."),
@@ -88,9 +90,10 @@ def of_places(reports):
     count = sum(len(r["cases"]) for r in reports)
     relative = [(p["mean"] / p["longest_side"], p["largest"] / p["longest_side"]) for p in places]
     if relative:
-        yield "mean error of each motion at most 0.03 of the path's longest side", \
-            f"{max(m for m, _ in relative):.3f} at most, on {len(places)} of {count} motions"
-        yield "largest error at most 0.06", f"{max(x for _, x in relative):.3f}"
+        means, largest = zip(*relative)
+        yield "places: mean error at most 0.03 of the path's longest side", \
+            f"{sum(means) / len(means):.3f} over {len(means)} of {count} motions, {min(means):.3f} to {max(means):.3f}"
+        yield "places: largest error at most 0.06", f"{min(largest):.3f} to {max(largest):.3f}"
 
 
 def of_orientations(reports):
@@ -104,7 +107,7 @@ def asked(work):
     """Lines "asked | found" of what there is."""
     for report in read(work / "hybrid.json"):
         yield from of_hybrid(report)
-    for report in read(work / "planners.json"):
+    for report in read(work / "planners.json") + read(work / "paper_cut.json"):
         if report["planner"] == "graph":
             yield from of_planner(report)
     yield from of_places(read(work / "table2.json"))
