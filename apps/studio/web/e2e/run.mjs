@@ -137,6 +137,27 @@ async function exports(page, folder) {
   assert.equal(verdict.status, 0, verdict.stdout + verdict.stderr);
 }
 
+/** A project opened in another session is what it was, takes included. */
+async function project(page, count) {
+  const motion = () => page.evaluate(async () => (await fetch(document.querySelector('a[data-file="motion.glb"]').href)).text());
+  const before = await motion();
+  const file = await download(page, () => page.click('#save-project'));
+  await page.click('#new-sound');
+  await animate(page, () => page.setInputFiles('#sound-file', {name: file.name, mimeType: '', buffer: readFileSync(file.path)}));
+  assert.equal(await marks(page), count);
+  assert.ok((await motion()) === before, 'the same motion');
+}
+
+/** Chromium's own microphone beeps once a second. */
+async function record(page) {
+  await page.click('#new-sound');
+  await page.click('#record');
+  await page.waitForFunction(() => parseFloat(document.getElementById('record').textContent.slice(7)) > 1.2);
+  await page.click('#record');
+  await page.waitForSelector('.mark');
+  assert.equal(await page.textContent('#sound-name'), 'recording.wav');
+}
+
 async function reload(page, count) {
   await page.waitForTimeout(500); // what was changed last is saved a moment later
   await page.reload();
@@ -179,6 +200,9 @@ await withStudio(program, async ({page, context, studio, folder}) => {
   await page.waitForTimeout(pictures ? 600 : 0);
   await checkAccess(page, 'objects');
   await picture(page, 'studio-objects.png');
+  await page.click('#objects [data-close]');
+  await project(page, count);
+  await record(page);
   assert.deepEqual(problems, []);
 });
 console.log('1 passed, 0 failed');

@@ -7,22 +7,10 @@ import {fillGrid, pictureOf} from './objects';
 import {Player} from './player';
 import {nearestOnset, Waveform} from './signal';
 import {Timeline} from './timeline';
+import {kMaxRecording, Recorder} from './recorder';
+import {emptySaved, readProject, readSaved, writeProject, type Saved} from './saved';
 import exampleUrl from './example.wav?url';
 import type {OrbitControls, Stage, TakeScene} from './stage';
-
-/** What a reload brings back; the server keeps it with the sound. */
-interface Saved {
-  version: 1;
-  marking: Marking;
-  object: string;
-  surface: string;
-  face: string;
-  fit: boolean;
-  takes: number;
-  seed: number;
-  plan: {number: number; takes: number; marks: readonly Mark[]; failure: string} | null;
-  take: number;
-}
 
 interface Take {
   motion: api.Motion;
@@ -45,11 +33,6 @@ let takes: Take[] = [];
 let stage: Stage | null = null;
 let controls: OrbitControls | null = null;
 let job: AbortController | null = null;
-
-function emptySaved(): Saved {
-  return {version: 1, marking: {marks: [], terminal: true}, object: '', surface: '', face: '', fit: false,
-          takes: 3, seed: 1, plan: null, take: 1};
-}
 
 // ---- telling -------------------------------------------------------------------------------------
 
@@ -78,15 +61,55 @@ function showTip(text: string, x: number, y: number): void {
 
 // ---- the sound -----------------------------------------------------------------------------------
 
+/** A sound, or a project. */
 async function openFile(file: Blob, name: string): Promise<void> {
   document.body.classList.add('busy');
   try {
+    const project = name.endsWith('.ifa-project') ? readProject(await file.text()) : null;
+    if (project) return await openProject(project.name, project.sound, project.saved);
     await openSession(await api.sendSound(file, name));
   } catch (error) {
     tellError(error);
   } finally {
     document.body.classList.remove('busy');
   }
+}
+
+async function openProject(name: string, sound: Uint8Array<ArrayBuffer>, state: Saved): Promise<void> {
+  const opened = await api.sendSound(new Blob([sound]), name);
+  await openSession({...opened, state: {...state, plan: null}});
+  save();
+  if (state.plan) void animate(); // the same contacts and seed give the same takes
+}
+
+async function saveProject(): Promise<void> {
+  if (!session) return;
+  const sound = new Uint8Array(await (await fetch(api.soundFile(session.session))).arrayBuffer());
+  downloadText(`${stem()}.ifa-project`, writeProject({name: session.name, sound, saved: {...saved, marking: history.present}}));
+}
+
+let recorder: Recorder | null = null;
+async function record(): Promise<void> {
+  const label = button('record');
+  try {
+    if (recorder) {
+      const sound = await recorder.stop();
+      recorder = null;
+      label.textContent = 'Record';
+      return await openFile(sound, 'recording.wav');
+    }
+    recorder = await Recorder.start();
+  } catch (error) {
+    recorder = null;
+    return toast(`The microphone cannot be used: ${error instanceof Error ? error.message : String(error)}`);
+  }
+  const show = (): void => {
+    if (!recorder) return;
+    label.textContent = `Stop · ${recorder.seconds.toFixed(1)} s`;
+    if (recorder.seconds >= kMaxRecording) void record();
+    else setTimeout(show, 100);
+  };
+  show();
 }
 
 async function openSession(opened: api.Session): Promise<void> {
@@ -101,8 +124,9 @@ async function openSession(opened: api.Session): Promise<void> {
   saved = {...emptySaved(), object: saved.object, surface: saved.surface};
   const marks = contacts.map((contact, i) => ({...contact, id: i + 1}));
   history = new History<Marking>({marks, terminal: true});
-  if (isSaved(opened.state)) {
-    saved = opened.state;
+  const before = readSaved(opened.state);
+  if (before) {
+    saved = before;
     history = new History<Marking>(saved.marking);
   }
   location.hash = `s=${opened.session}`;
@@ -110,16 +134,12 @@ async function openSession(opened: api.Session): Promise<void> {
   document.title = `${opened.name || 'Sound'} · Inverse Foley Studio`;
   $('welcome').hidden = true;
   $('editor').hidden = false;
-  button('new-sound').hidden = false;
+  button('new-sound').hidden = button('save-project').hidden = false;
   timeline.show(wave);
   showChoice();
   showMarks();
   if (history.present.marks.length === 0) toast('No contact was found: double-click where the object touches.');
   if (saved.plan) await showPlan();
-}
-
-function isSaved(state: unknown): state is Saved {
-  return typeof state === 'object' && state !== null && (state as Saved).version === 1;
 }
 
 function closeSession(): void {
@@ -270,11 +290,13 @@ function download(name: string, href: string): void {
 
 const stem = (): string => (session?.name || 'sound').replace(/\.[^.]*$/, '');
 
-function saveLabels(): void {
-  const url = URL.createObjectURL(new Blob([labelTrack(history.present)], {type: 'text/plain'}));
-  download(`${stem()}.txt`, url);
+function downloadText(name: string, text: string): void {
+  const url = URL.createObjectURL(new Blob([text], {type: 'text/plain'}));
+  download(name, url);
   setTimeout(() => URL.revokeObjectURL(url), 10000);
 }
+
+const saveLabels = (): void => downloadText(`${stem()}.txt`, labelTrack(history.present));
 
 async function loadLabels(file: Blob): Promise<void> {
   try {
@@ -638,11 +660,13 @@ function wire(): void {
     player = null;
     session = null;
     window.history.replaceState(null, '', location.pathname);
-    $('editor').hidden = button('new-sound').hidden = true;
+    $('editor').hidden = button('new-sound').hidden = button('save-project').hidden = true;
     $('welcome').hidden = false;
     $('sound-name').textContent = '';
   });
   on('example', () => void fetch(exampleUrl).then((answer) => answer.blob()).then((blob) => openFile(blob, 'example.wav')).catch(tellError));
+  on('record', () => void record());
+  on('save-project', () => void saveProject().catch(tellError));
   on('play', () => void togglePlay());
   on('loop', () => void toggleLoop());
   on('undo', () => step('undo'));
