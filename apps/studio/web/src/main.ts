@@ -375,6 +375,9 @@ function drawSmall(time: number): boolean {
 
 const chosenObject = (): api.CatalogueObject | undefined => catalogue.find((one) => one.name === saved.object);
 
+const facesOf = (object: api.CatalogueObject | undefined): string[] =>
+  Object.keys(object?.faces ?? {}).sort((a, b) => a.localeCompare(b, 'en', {numeric: true}));
+
 function showChoice(): void {
   const object = chosenObject();
   const picture = $('object').querySelector<HTMLElement>('.picture')!;
@@ -382,8 +385,9 @@ function showChoice(): void {
   picture.textContent = object ? '' : '?';
   $('object-title').textContent = object?.title ?? 'Choose an object';
   $('object-note').textContent = object ? object.material || 'change…' : 'what made the sound?';
-  $('face-row').hidden = !object || object.faces.length === 0;
-  $('faces').replaceChildren(...['', ...(object?.faces ?? [])].map(faceChip));
+  const faces = facesOf(object);
+  $('face-row').hidden = faces.length === 0;
+  $('faces').replaceChildren(...['', ...faces].map(faceChip));
   const surface = $<HTMLSelectElement>('surface');
   surface.replaceChildren(...(object?.surfaces ?? []).map((name) => new Option(name, name)));
   surface.value = saved.surface || object?.surface || '';
@@ -394,18 +398,21 @@ function showChoice(): void {
   showPlanButton();
 }
 
+function demandFace(face: string): void {
+  if (face === saved.face) return;
+  saved.face = face;
+  showChoice();
+  save();
+  if (saved.plan) void animate(); // asked again of what is there: planned at once
+}
+
 function faceChip(face: string): HTMLElement {
   const chip = document.createElement('button');
   chip.textContent = face || 'any';
   chip.setAttribute('role', 'radio');
   chip.setAttribute('aria-checked', String(face === saved.face));
   chip.setAttribute('aria-label', face ? `${face} up` : 'any face up');
-  chip.addEventListener('click', () => {
-    saved.face = face;
-    showChoice();
-    save();
-    if (saved.plan) void animate(); // asked again of what is there: planned at once
-  });
+  chip.addEventListener('click', () => demandFace(face));
   return chip;
 }
 
@@ -731,16 +738,39 @@ function wireFiles(): void {
   });
 }
 
+/** The named face of the body at that place of the large picture; none where that has no name, or the takes are of another object. */
+function faceAt([x, y]: [number, number]): string | null {
+  const take = takes[saved.take - 1];
+  if (!take || take.motion.object.name !== saved.object) return null;
+  const normal = take.scene?.normalAt(x, y);
+  if (!normal) return null;
+  const faces = Object.entries(chosenObject()?.faces ?? {});
+  return faces.find(([, to]) => to[0] * normal[0] + to[1] * normal[1] + to[2] * normal[2] > 0.95)?.[0] ?? null;
+}
+
+function tipOfPlace(place: [number, number]): string {
+  const take = takes[saved.take - 1];
+  const spot = take?.scene?.spotAt(...place) ?? null;
+  const contact = spot === null ? undefined : take?.motion.contacts[spot];
+  const first = saved.plan?.marks[0]?.start ?? 0;
+  if (take && contact && spot !== null) return explain(contact, spot, take.motion.bend.cap, first + contact.time);
+  const face = job ? null : faceAt(place);
+  return face === null || face === saved.face ? '' : `Click: ends with ${face} up`;
+}
+
 function wirePictures(): void {
   const large = $<HTMLCanvasElement>('large');
-  large.addEventListener('pointermove', (event) => {
-    const take = takes[saved.take - 1];
+  const placeOf = (event: PointerEvent): [number, number] => {
     const box = large.getBoundingClientRect();
-    const x = (2 * (event.clientX - box.left)) / box.width - 1;
-    const spot = take?.scene?.spotAt(x, 1 - (2 * (event.clientY - box.top)) / box.height) ?? null;
-    const contact = spot === null ? undefined : take?.motion.contacts[spot];
-    const first = saved.plan?.marks[0]?.start ?? 0;
-    showTip(take && contact && spot !== null ? explain(contact, spot, take.motion.bend.cap, first + contact.time) : '', event.clientX, event.clientY);
+    return [(2 * (event.clientX - box.left)) / box.width - 1, 1 - (2 * (event.clientY - box.top)) / box.height];
+  };
+  large.addEventListener('pointermove', (event) => showTip(tipOfPlace(placeOf(event)), event.clientX, event.clientY));
+  let down: [number, number] = [0, 0];
+  large.addEventListener('pointerdown', (event) => (down = [event.clientX, event.clientY]));
+  large.addEventListener('pointerup', (event) => {
+    const turned = Math.hypot(event.clientX - down[0], event.clientY - down[1]) > 4;
+    const face = turned ? null : faceAt(placeOf(event));
+    if (face !== null) demandFace(face);
   });
   large.addEventListener('pointerleave', () => showTip('', 0, 0));
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', paintTakes);
@@ -761,7 +791,7 @@ async function start(): Promise<void> {
     const [list, before] = await Promise.all([api.objects(), id ? api.session(id) : null]);
     // Dice first: what most sounds here are of.
     const isDie = ({name}: api.CatalogueObject): boolean => /^d\d+$/.test(name);
-    catalogue = [...list.filter(isDie).sort((a, b) => a.faces.length - b.faces.length), ...list.filter((one) => !isDie(one))];
+    catalogue = [...list.filter(isDie).sort((a, b) => facesOf(a).length - facesOf(b).length), ...list.filter((one) => !isDie(one))];
     fillGrid($('object-grid'), $<HTMLInputElement>('object-search'), catalogue, chooseObject);
     if (before) await openSession(before);
   } catch (error) {

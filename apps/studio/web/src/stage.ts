@@ -162,6 +162,14 @@ export class TakeScene {
     return hit ? (hit.object.userData['contact'] as number) : null;
   }
 
+  /** The normal of the body's surface seen at that place, in the body's own frame (z up); null beside it. */
+  normalAt(x: number, y: number): [number, number, number] | null {
+    const ray = new THREE.Raycaster();
+    ray.setFromCamera(new THREE.Vector2(x, y), this.camera);
+    const normal = ray.intersectObject(this.body, true)[0]?.face?.normal;
+    return normal ? [normal.x, -normal.z, normal.y] : null;
+  }
+
   setTheme(ground: string, line: string): void {
     this.scene.background = new THREE.Color(ground);
     (this.scene.fog as THREE.Fog).color.set(ground);
