@@ -203,7 +203,7 @@ await withStudio(program, async ({page, context, studio, folder}) => {
   await checkSync(page, 3);
   const box = await page.locator('#track').boundingBox();
   await page.mouse.click(box.x + box.width * 0.43, box.y + 130);
-  assert.match(await page.textContent('#clock'), /^0\.64\d s$/);
+  await page.waitForFunction(() => /^0\.64\d s$/.test(document.getElementById('clock').textContent));
   await page.waitForTimeout(pictures ? 700 : 0);
   await picture(page, 'studio-takes.png');
   await checkAccess(page, 'editor');

@@ -341,6 +341,8 @@ async function toggleLoop(): Promise<void> {
 
 let turn = 0;
 let drawn = '';
+let drawnStill = false;
+let lastMoved = 0;
 const idleStart = performance.now();
 function frame(): void {
   requestAnimationFrame(frame);
@@ -356,9 +358,12 @@ function frame(): void {
   take.scene.setTime(time, controls ?? undefined);
   controls?.update();
   const now = `${saved.plan?.number} ${saved.take} ${time} ${take.scene.camera.position.toArray()} ${innerWidth} ${innerHeight} ${theme}`;
-  if (now === drawn && !small && turn > 8) return;
+  if (now !== drawn) lastMoved = performance.now();
+  const still = performance.now() - lastMoved > 250;
+  if (now === drawn && still === drawnStill && !small) return;
   drawn = now;
-  stage.drawLarge(take.scene);
+  drawnStill = still;
+  stage.drawLarge(take.scene, still);
 }
 
 /** One of the small pictures at a time: they may come late, the large one may not. Whether one was drawn. */
@@ -553,7 +558,7 @@ async function showPlan(): Promise<void> {
   });
   $('empty').hidden = true;
   $('large').hidden = !stage?.works;
-  turn = 0;
+  drawn = '';
   paintTakes();
   chooseTake(Math.min(saved.take, takes.length));
 }

@@ -277,15 +277,17 @@ export class Stage {
     return new TakeScene(gltf, motion, firstContact, this.software ? 512 : 1024);
   }
 
-  drawLarge(take: TakeScene): void {
+  /** @param still nothing moves: a sharp picture may take its time */
+  drawLarge(take: TakeScene, still: boolean): void {
     const {large, renderer} = this;
     if (!renderer) return;
-    const width = Math.max(1, Math.round(large.clientWidth * this.scale));
-    const height = Math.max(1, Math.round(large.clientHeight * this.scale));
+    const scale = still ? Math.max(1, devicePixelRatio) : this.scale;
+    const width = Math.max(1, Math.round(large.clientWidth * scale));
+    const height = Math.max(1, Math.round(large.clientHeight * scale));
     if (large.width !== width || large.height !== height) renderer.setSize(width, height, false);
     this.render(take, width, height);
     const now = performance.now();
-    this.adapt(now - this.lastLarge);
+    if (!still) this.adapt(now - this.lastLarge);
     this.lastLarge = now;
   }
 
