@@ -18,7 +18,7 @@ Result<std::map<std::string, CatalogueEntry>> readCatalogue() {
     entry.material = object->material;
     entry.defaultSurface = object->defaultSurface;
     for (const auto& surface : object->surfaces) entry.surfaces.insert(surface.first);
-    for (const auto& face : object->faces) entry.faces.insert(face.first);
+    for (const auto& [face, to] : object->faces) entry.faces[face] = {to.x(), to.y(), to.z()};
   }
   return entries;
 }

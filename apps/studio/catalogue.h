@@ -2,6 +2,7 @@
 // The objects that a person may choose from.
 #pragma once
 
+#include <array>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -15,7 +16,10 @@ namespace ifa::studio {
 struct CatalogueEntry {
   std::string title, material;
   std::string defaultSurface;
-  std::set<std::string> surfaces, faces;
+  std::set<std::string> surfaces;
+  /// Unit directions in the body frame. Not Eigen's vectors: cpp-httplib brings a macro, _res, that
+  /// Eigen's headers do not survive.
+  std::map<std::string, std::array<double, 3>> faces;
 };
 
 /// By name. Object files that cannot be read are left out. Errors: no library.

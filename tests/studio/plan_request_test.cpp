@@ -15,7 +15,7 @@ using testing::Not;
 
 const std::map<std::string, CatalogueEntry>& catalogue() {
   static const std::map<std::string, CatalogueEntry> kEntries = {
-      {"d6", {"Die", "acrylic", "desk", {"desk", "wood"}, {"1", "6"}}}};
+      {"d6", {"Die", "acrylic", "desk", {"desk", "wood"}, {{"1", {0, 0, 1}}, {"6", {0, 0, -1}}}}}};
   return kEntries;
 }
 

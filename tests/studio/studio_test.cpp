@@ -242,6 +242,31 @@ TEST_F(StudioTest, SoundsThatAreNoneLeaveNothing) {
   EXPECT_EQ(files(), before);
 }
 
+// A page sends no file name that could be trusted: the kind of a sound is told by its bytes.
+TEST_F(StudioTest, TakesEveryKindOfSound) {
+  const fs::path wav = folder_ / "kind.wav", other = folder_ / "kind.other";
+  test::writeText(wav, clicks());
+  for (const int format : {SF_FORMAT_FLAC | SF_FORMAT_PCM_16, SF_FORMAT_OGG | SF_FORMAT_VORBIS,
+                           SF_FORMAT_MPEG | SF_FORMAT_MPEG_LAYER_III}) {
+    SF_INFO info{};
+    SNDFILE* from = sf_open(wav.c_str(), SFM_READ, &info);
+    std::vector<float> samples(static_cast<std::size_t>(info.frames));
+    sf_readf_float(from, samples.data(), info.frames);
+    sf_close(from);
+    info.format = format;
+    SNDFILE* to = sf_open(other.c_str(), SFM_WRITE, &info);
+    ASSERT_NE(to, nullptr) << format;
+    sf_writef_float(to, samples.data(), static_cast<sf_count_t>(samples.size()));
+    sf_close(to);
+    const auto answer = client().Post("/api/sounds", test::readText(other), kBytes);
+    ASSERT_TRUE(answer);
+    ASSERT_EQ(answer->status, 200) << format << answer->body;
+    const Json heard = Json::parse(answer->body)["heard"];
+    EXPECT_GE(heard["contacts"].size(), 3U) << format;
+    EXPECT_NEAR(heard["duration"].get<double>(), 1.2, 0.08) << format;
+  }
+}
+
 TEST_F(StudioTest, ASessionComesBack) {
   const Json opened = openSound();
   const std::string path = "/api/sessions/" + opened["session"].get<std::string>();

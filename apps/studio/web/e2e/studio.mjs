@@ -29,7 +29,8 @@ export async function withStudio(program, use, options = {}) {
   const studio = await startStudio(program, join(folder, 'sessions'));
   const browser = await chromium.launch({
     executablePath: browserPath,
-    args: ['--no-sandbox', '--autoplay-policy=no-user-gesture-required'],
+    args: ['--no-sandbox', '--autoplay-policy=no-user-gesture-required', '--use-fake-device-for-media-stream',
+           '--use-fake-ui-for-media-stream'],
   });
   try {
     const context = await browser.newContext({viewport: {width: 1280, height: 720}, acceptDownloads: true, ...options});

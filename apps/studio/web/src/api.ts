@@ -7,7 +7,8 @@ export interface CatalogueObject {
   material: string;
   surface: string;
   surfaces: string[];
-  faces: string[];
+  /** Unit directions in the body's frame, z up where it was drawn. */
+  faces: Record<string, [number, number, number]>;
 }
 
 export interface Heard {

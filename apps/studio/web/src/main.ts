@@ -7,22 +7,10 @@ import {fillGrid, pictureOf} from './objects';
 import {Player} from './player';
 import {nearestOnset, Waveform} from './signal';
 import {Timeline} from './timeline';
+import {kMaxRecording, Recorder} from './recorder';
+import {emptySaved, readProject, readSaved, writeProject, type Saved} from './saved';
 import exampleUrl from './example.wav?url';
 import type {OrbitControls, Stage, TakeScene} from './stage';
-
-/** What a reload brings back; the server keeps it with the sound. */
-interface Saved {
-  version: 1;
-  marking: Marking;
-  object: string;
-  surface: string;
-  face: string;
-  fit: boolean;
-  takes: number;
-  seed: number;
-  plan: {number: number; takes: number; marks: readonly Mark[]; failure: string} | null;
-  take: number;
-}
 
 interface Take {
   motion: api.Motion;
@@ -45,11 +33,6 @@ let takes: Take[] = [];
 let stage: Stage | null = null;
 let controls: OrbitControls | null = null;
 let job: AbortController | null = null;
-
-function emptySaved(): Saved {
-  return {version: 1, marking: {marks: [], terminal: true}, object: '', surface: '', face: '', fit: false,
-          takes: 3, seed: 1, plan: null, take: 1};
-}
 
 // ---- telling -------------------------------------------------------------------------------------
 
@@ -78,15 +61,55 @@ function showTip(text: string, x: number, y: number): void {
 
 // ---- the sound -----------------------------------------------------------------------------------
 
+/** A sound, or a project. */
 async function openFile(file: Blob, name: string): Promise<void> {
   document.body.classList.add('busy');
   try {
+    const project = name.endsWith('.ifa-project') ? readProject(await file.text()) : null;
+    if (project) return await openProject(project.name, project.sound, project.saved);
     await openSession(await api.sendSound(file, name));
   } catch (error) {
     tellError(error);
   } finally {
     document.body.classList.remove('busy');
   }
+}
+
+async function openProject(name: string, sound: Uint8Array<ArrayBuffer>, state: Saved): Promise<void> {
+  const opened = await api.sendSound(new Blob([sound]), name);
+  await openSession({...opened, state: {...state, plan: null}});
+  save();
+  if (state.plan) void animate(); // the same contacts and seed give the same takes
+}
+
+async function saveProject(): Promise<void> {
+  if (!session) return;
+  const sound = new Uint8Array(await (await fetch(api.soundFile(session.session))).arrayBuffer());
+  downloadText(`${stem()}.ifa-project`, writeProject({name: session.name, sound, saved: {...saved, marking: history.present}}));
+}
+
+let recorder: Recorder | null = null;
+async function record(): Promise<void> {
+  const label = button('record');
+  try {
+    if (recorder) {
+      const sound = await recorder.stop();
+      recorder = null;
+      label.textContent = 'Record';
+      return await openFile(sound, 'recording.wav');
+    }
+    recorder = await Recorder.start();
+  } catch (error) {
+    recorder = null;
+    return toast(`The microphone cannot be used: ${error instanceof Error ? error.message : String(error)}`);
+  }
+  const show = (): void => {
+    if (!recorder) return;
+    label.textContent = `Stop · ${recorder.seconds.toFixed(1)} s`;
+    if (recorder.seconds >= kMaxRecording) void record();
+    else setTimeout(show, 100);
+  };
+  show();
 }
 
 async function openSession(opened: api.Session): Promise<void> {
@@ -101,8 +124,9 @@ async function openSession(opened: api.Session): Promise<void> {
   saved = {...emptySaved(), object: saved.object, surface: saved.surface};
   const marks = contacts.map((contact, i) => ({...contact, id: i + 1}));
   history = new History<Marking>({marks, terminal: true});
-  if (isSaved(opened.state)) {
-    saved = opened.state;
+  const before = readSaved(opened.state);
+  if (before) {
+    saved = before;
     history = new History<Marking>(saved.marking);
   }
   location.hash = `s=${opened.session}`;
@@ -110,16 +134,12 @@ async function openSession(opened: api.Session): Promise<void> {
   document.title = `${opened.name || 'Sound'} · Inverse Foley Studio`;
   $('welcome').hidden = true;
   $('editor').hidden = false;
-  button('new-sound').hidden = false;
+  button('new-sound').hidden = button('save-project').hidden = false;
   timeline.show(wave);
   showChoice();
   showMarks();
   if (history.present.marks.length === 0) toast('No contact was found: double-click where the object touches.');
   if (saved.plan) await showPlan();
-}
-
-function isSaved(state: unknown): state is Saved {
-  return typeof state === 'object' && state !== null && (state as Saved).version === 1;
 }
 
 function closeSession(): void {
@@ -270,11 +290,13 @@ function download(name: string, href: string): void {
 
 const stem = (): string => (session?.name || 'sound').replace(/\.[^.]*$/, '');
 
-function saveLabels(): void {
-  const url = URL.createObjectURL(new Blob([labelTrack(history.present)], {type: 'text/plain'}));
-  download(`${stem()}.txt`, url);
+function downloadText(name: string, text: string): void {
+  const url = URL.createObjectURL(new Blob([text], {type: 'text/plain'}));
+  download(name, url);
   setTimeout(() => URL.revokeObjectURL(url), 10000);
 }
+
+const saveLabels = (): void => downloadText(`${stem()}.txt`, labelTrack(history.present));
 
 async function loadLabels(file: Blob): Promise<void> {
   try {
@@ -319,6 +341,8 @@ async function toggleLoop(): Promise<void> {
 
 let turn = 0;
 let drawn = '';
+let drawnStill = false;
+let lastMoved = 0;
 const idleStart = performance.now();
 function frame(): void {
   requestAnimationFrame(frame);
@@ -334,9 +358,12 @@ function frame(): void {
   take.scene.setTime(time, controls ?? undefined);
   controls?.update();
   const now = `${saved.plan?.number} ${saved.take} ${time} ${take.scene.camera.position.toArray()} ${innerWidth} ${innerHeight} ${theme}`;
-  if (now === drawn && !small && turn > 8) return;
+  if (now !== drawn) lastMoved = performance.now();
+  const still = performance.now() - lastMoved > 250;
+  if (now === drawn && still === drawnStill && !small) return;
   drawn = now;
-  stage.drawLarge(take.scene);
+  drawnStill = still;
+  stage.drawLarge(take.scene, still);
 }
 
 /** One of the small pictures at a time: they may come late, the large one may not. Whether one was drawn. */
@@ -353,6 +380,9 @@ function drawSmall(time: number): boolean {
 
 const chosenObject = (): api.CatalogueObject | undefined => catalogue.find((one) => one.name === saved.object);
 
+const facesOf = (object: api.CatalogueObject | undefined): string[] =>
+  Object.keys(object?.faces ?? {}).sort((a, b) => a.localeCompare(b, 'en', {numeric: true}));
+
 function showChoice(): void {
   const object = chosenObject();
   const picture = $('object').querySelector<HTMLElement>('.picture')!;
@@ -360,8 +390,9 @@ function showChoice(): void {
   picture.textContent = object ? '' : '?';
   $('object-title').textContent = object?.title ?? 'Choose an object';
   $('object-note').textContent = object ? object.material || 'change…' : 'what made the sound?';
-  $('face-row').hidden = !object || object.faces.length === 0;
-  $('faces').replaceChildren(...['', ...(object?.faces ?? [])].map(faceChip));
+  const faces = facesOf(object);
+  $('face-row').hidden = faces.length === 0;
+  $('faces').replaceChildren(...['', ...faces].map(faceChip));
   const surface = $<HTMLSelectElement>('surface');
   surface.replaceChildren(...(object?.surfaces ?? []).map((name) => new Option(name, name)));
   surface.value = saved.surface || object?.surface || '';
@@ -372,18 +403,21 @@ function showChoice(): void {
   showPlanButton();
 }
 
+function demandFace(face: string): void {
+  if (face === saved.face) return;
+  saved.face = face;
+  showChoice();
+  save();
+  if (saved.plan) void animate(); // asked again of what is there: planned at once
+}
+
 function faceChip(face: string): HTMLElement {
   const chip = document.createElement('button');
   chip.textContent = face || 'any';
   chip.setAttribute('role', 'radio');
   chip.setAttribute('aria-checked', String(face === saved.face));
   chip.setAttribute('aria-label', face ? `${face} up` : 'any face up');
-  chip.addEventListener('click', () => {
-    saved.face = face;
-    showChoice();
-    save();
-    if (saved.plan) void animate(); // asked again of what is there: planned at once
-  });
+  chip.addEventListener('click', () => demandFace(face));
   return chip;
 }
 
@@ -524,7 +558,7 @@ async function showPlan(): Promise<void> {
   });
   $('empty').hidden = true;
   $('large').hidden = !stage?.works;
-  turn = 0;
+  drawn = '';
   paintTakes();
   chooseTake(Math.min(saved.take, takes.length));
 }
@@ -638,11 +672,13 @@ function wire(): void {
     player = null;
     session = null;
     window.history.replaceState(null, '', location.pathname);
-    $('editor').hidden = button('new-sound').hidden = true;
+    $('editor').hidden = button('new-sound').hidden = button('save-project').hidden = true;
     $('welcome').hidden = false;
     $('sound-name').textContent = '';
   });
   on('example', () => void fetch(exampleUrl).then((answer) => answer.blob()).then((blob) => openFile(blob, 'example.wav')).catch(tellError));
+  on('record', () => void record());
+  on('save-project', () => void saveProject().catch(tellError));
   on('play', () => void togglePlay());
   on('loop', () => void toggleLoop());
   on('undo', () => step('undo'));
@@ -707,16 +743,39 @@ function wireFiles(): void {
   });
 }
 
+/** The named face of the body at that place of the large picture; none where that has no name, or the takes are of another object. */
+function faceAt([x, y]: [number, number]): string | null {
+  const take = takes[saved.take - 1];
+  if (!take || take.motion.object.name !== saved.object) return null;
+  const normal = take.scene?.normalAt(x, y);
+  if (!normal) return null;
+  const faces = Object.entries(chosenObject()?.faces ?? {});
+  return faces.find(([, to]) => to[0] * normal[0] + to[1] * normal[1] + to[2] * normal[2] > 0.95)?.[0] ?? null;
+}
+
+function tipOfPlace(place: [number, number]): string {
+  const take = takes[saved.take - 1];
+  const spot = take?.scene?.spotAt(...place) ?? null;
+  const contact = spot === null ? undefined : take?.motion.contacts[spot];
+  const first = saved.plan?.marks[0]?.start ?? 0;
+  if (take && contact && spot !== null) return explain(contact, spot, take.motion.bend.cap, first + contact.time);
+  const face = job ? null : faceAt(place);
+  return face === null || face === saved.face ? '' : `Click: ends with ${face} up`;
+}
+
 function wirePictures(): void {
   const large = $<HTMLCanvasElement>('large');
-  large.addEventListener('pointermove', (event) => {
-    const take = takes[saved.take - 1];
+  const placeOf = (event: PointerEvent): [number, number] => {
     const box = large.getBoundingClientRect();
-    const x = (2 * (event.clientX - box.left)) / box.width - 1;
-    const spot = take?.scene?.spotAt(x, 1 - (2 * (event.clientY - box.top)) / box.height) ?? null;
-    const contact = spot === null ? undefined : take?.motion.contacts[spot];
-    const first = saved.plan?.marks[0]?.start ?? 0;
-    showTip(take && contact && spot !== null ? explain(contact, spot, take.motion.bend.cap, first + contact.time) : '', event.clientX, event.clientY);
+    return [(2 * (event.clientX - box.left)) / box.width - 1, 1 - (2 * (event.clientY - box.top)) / box.height];
+  };
+  large.addEventListener('pointermove', (event) => showTip(tipOfPlace(placeOf(event)), event.clientX, event.clientY));
+  let down: [number, number] = [0, 0];
+  large.addEventListener('pointerdown', (event) => (down = [event.clientX, event.clientY]));
+  large.addEventListener('pointerup', (event) => {
+    const turned = Math.hypot(event.clientX - down[0], event.clientY - down[1]) > 4;
+    const face = turned ? null : faceAt(placeOf(event));
+    if (face !== null) demandFace(face);
   });
   large.addEventListener('pointerleave', () => showTip('', 0, 0));
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', paintTakes);
@@ -737,7 +796,7 @@ async function start(): Promise<void> {
     const [list, before] = await Promise.all([api.objects(), id ? api.session(id) : null]);
     // Dice first: what most sounds here are of.
     const isDie = ({name}: api.CatalogueObject): boolean => /^d\d+$/.test(name);
-    catalogue = [...list.filter(isDie).sort((a, b) => a.faces.length - b.faces.length), ...list.filter((one) => !isDie(one))];
+    catalogue = [...list.filter(isDie).sort((a, b) => facesOf(a).length - facesOf(b).length), ...list.filter((one) => !isDie(one))];
     fillGrid($('object-grid'), $<HTMLInputElement>('object-search'), catalogue, chooseObject);
     if (before) await openSession(before);
   } catch (error) {

@@ -162,6 +162,14 @@ export class TakeScene {
     return hit ? (hit.object.userData['contact'] as number) : null;
   }
 
+  /** The normal of the body's surface seen at that place, in the body's own frame (z up); null beside it. */
+  normalAt(x: number, y: number): [number, number, number] | null {
+    const ray = new THREE.Raycaster();
+    ray.setFromCamera(new THREE.Vector2(x, y), this.camera);
+    const normal = ray.intersectObject(this.body, true)[0]?.face?.normal;
+    return normal ? [normal.x, -normal.z, normal.y] : null;
+  }
+
   setTheme(ground: string, line: string): void {
     this.scene.background = new THREE.Color(ground);
     (this.scene.fog as THREE.Fog).color.set(ground);
@@ -269,15 +277,17 @@ export class Stage {
     return new TakeScene(gltf, motion, firstContact, this.software ? 512 : 1024);
   }
 
-  drawLarge(take: TakeScene): void {
+  /** @param still nothing moves: a sharp picture may take its time */
+  drawLarge(take: TakeScene, still: boolean): void {
     const {large, renderer} = this;
     if (!renderer) return;
-    const width = Math.max(1, Math.round(large.clientWidth * this.scale));
-    const height = Math.max(1, Math.round(large.clientHeight * this.scale));
+    const scale = still ? Math.max(1, devicePixelRatio) : this.scale;
+    const width = Math.max(1, Math.round(large.clientWidth * scale));
+    const height = Math.max(1, Math.round(large.clientHeight * scale));
     if (large.width !== width || large.height !== height) renderer.setSize(width, height, false);
     this.render(take, width, height);
     const now = performance.now();
-    this.adapt(now - this.lastLarge);
+    if (!still) this.adapt(now - this.lastLarge);
     this.lastLarge = now;
   }
 

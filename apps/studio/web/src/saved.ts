@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a reload or a project file brings back. Pure.
+import type {Mark, Marking} from './marks';
+
+export interface Saved {
+  version: 1;
+  marking: Marking;
+  object: string;
+  surface: string;
+  face: string;
+  fit: boolean;
+  takes: number;
+  seed: number;
+  plan: {number: number; takes: number; marks: readonly Mark[]; failure: string} | null;
+  take: number;
+}
+
+export function emptySaved(): Saved {
+  return {version: 1, marking: {marks: [], terminal: true}, object: '', surface: '', face: '', fit: false,
+          takes: 3, seed: 1, plan: null, take: 1};
+}
+
+type Fields = Record<string, unknown>;
+const isObject = (value: unknown): value is Fields => typeof value === 'object' && value !== null;
+const isNumber = (value: unknown): value is number => typeof value === 'number' && Number.isFinite(value);
+
+function isMark(value: unknown): value is Mark {
+  return isObject(value) && ['id', 'start', 'end', 'confidence'].every((name) => isNumber(value[name]));
+}
+
+const areMarks = (value: unknown): value is Mark[] => Array.isArray(value) && value.every(isMark);
+
+function isPlan(value: unknown): boolean {
+  return value === null || (isObject(value) && isNumber(value['number']) && isNumber(value['takes']) &&
+    value['takes'] <= 6 && areMarks(value['marks']) && typeof value['failure'] === 'string');
+}
+
+/** The state if it is one, in every field; else null. */
+export function readSaved(value: unknown): Saved | null {
+  if (!isObject(value) || value['version'] !== 1 || !isObject(value['marking'])) return null;
+  const {marks, terminal} = value['marking'];
+  const good = areMarks(marks) && typeof terminal === 'boolean' && isPlan(value['plan']) && typeof value['fit'] === 'boolean' &&
+    ['object', 'surface', 'face'].every((name) => typeof value[name] === 'string') &&
+    ['takes', 'seed', 'take'].every((name) => isNumber(value[name]));
+  return good ? (value as unknown as Saved) : null;
+}
+
+/** A session in one file: its sound and all that was done. Takes are planned anew from it, and are the same. */
+export interface Project {
+  name: string;
+  sound: Uint8Array<ArrayBuffer>;
+  saved: Saved;
+}
+
+const kFormat = 'inverse-foley-project';
+
+export function writeProject({name, sound, saved}: Project): string {
+  let text = '';
+  for (let at = 0; at < sound.length; at += 0x8000) text += String.fromCharCode(...sound.subarray(at, at + 0x8000));
+  return JSON.stringify({format: kFormat, version: 1, name, state: saved, sound: btoa(text)});
+}
+
+/** Null where the text is no project. */
+export function readProject(text: string): Project | null {
+  try {
+    const value = JSON.parse(text) as unknown;
+    if (!isObject(value) || value['format'] !== kFormat || value['version'] !== 1) return null;
+    const saved = readSaved(value['state']);
+    const {name, sound} = value;
+    if (!saved || typeof name !== 'string' || typeof sound !== 'string') return null;
+    return {name, saved, sound: Uint8Array.from(atob(sound), (c) => c.charCodeAt(0))};
+  } catch {
+    return null;
+  }
+}
