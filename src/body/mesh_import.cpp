@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "body/mesh_import.h"
 
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/config.h>
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
@@ -215,10 +216,26 @@ double mostSeconds(const std::filesystem::path& path) {
 constexpr const char* kOtherFormat =
     "use OBJ, STL, PLY, glTF, 3MF, FBX or another format that assimp reads";
 
+/// Shows assimp one file, as if there were no other.
+class OneFileOnly : public Assimp::DefaultIOSystem {
+ public:
+  explicit OneFileOnly(std::string path) : path_(std::move(path)) {}
+  bool Exists(const char* path) const override {
+    return path == path_ && DefaultIOSystem::Exists(path);
+  }
+  Assimp::IOStream* Open(const char* path, const char* mode) override {
+    return path == path_ ? DefaultIOSystem::Open(path, mode) : nullptr;
+  }
+
+ private:
+  std::string path_;
+};
+
 /// As the file has it, triangles without area included.
-Result<Mesh> readScene(const std::filesystem::path& path, double metresPerUnit) {
+Result<Mesh> readScene(const std::filesystem::path& path, double metresPerUnit, OtherFiles others) {
   const std::string place = path.string();
   Assimp::Importer importer;
+  if (others == OtherFiles::kIgnored) importer.SetIOHandler(new OneFileOnly(place));
   configure(importer);
   const aiScene* scene = importer.ReadFile(
       place, aiProcess_RemoveComponent | aiProcess_Triangulate | aiProcess_SortByPType);
@@ -235,12 +252,13 @@ Result<Mesh> readScene(const std::filesystem::path& path, double metresPerUnit) 
 
 }  // namespace
 
-Result<Mesh> importMesh(const std::filesystem::path& path, double metresPerUnit) {
+Result<Mesh> importMesh(const std::filesystem::path& path, double metresPerUnit,
+                        OtherFiles others) {
   const std::string place = path.string();
   if (const auto good = checkFile(path); !good) return tl::unexpected(good.error());
   // assimp ends the program over some damaged files, and never ends over others.
-  const auto bytes =
-      callInChild([&] { return meshBytes(readScene(path, metresPerUnit)); }, mostSeconds(path));
+  const auto bytes = callInChild([&] { return meshBytes(readScene(path, metresPerUnit, others)); },
+                                 mostSeconds(path));
   if (!bytes) {
     return badInput("is not a mesh that can be read: assimp fails over it", place,
                     "export it again, or in another format");

@@ -54,6 +54,19 @@ TEST_F(MeshFiles, ObjKeepsGroupsColoursAndUnits) {
   EXPECT_LT((report.extent - Vector3d(0.016, 0.02, 0.03)).norm(), 1e-8);
 }
 
+TEST_F(MeshFiles, OtherFilesCanBeIgnored) {
+  Mesh box = shapes::box({1, 2, 3});
+  box.materials = {{"red", {1, 0, 0, 1}, 0.3, 0}};
+  box.triangleMaterial.assign(12, 0);
+  file("box.mtl", mtlText(box));
+  const fs::path path = file("box.obj", objText(box, "box.mtl"));
+  EXPECT_NEAR(importMesh(path, 1)->materials[0].colour[1], 0, 1e-6);
+  const auto alone = importMesh(path, 1, OtherFiles::kIgnored);
+  ASSERT_TRUE(alone) << alone.error().text();
+  EXPECT_EQ(alone->triangles.size(), 12u);
+  EXPECT_GT(alone->materials[0].colour[1], 0.1);
+}
+
 TEST_F(MeshFiles, StlIsWelded) {
   std::string text = "solid box\n";
   const Mesh box = shapes::box({1, 1, 1});
