@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `ifa studio`: the local web studio. And `ifa studio-hear`, which the studio runs for each sound
-// that it is given.
+// `ifa studio`: the local web studio. And `ifa studio-hear` and `ifa studio-mesh`, which the studio
+// runs for each sound and mesh that it is given.
 #include <fmt/core.h>
 #include <unistd.h>
 
@@ -13,6 +13,7 @@
 #include "command.h"
 #include "studio/hear_sound.h"
 #include "studio/pages.h"
+#include "studio/read_mesh.h"
 #include "studio/studio.h"
 
 namespace ifa::cli {
@@ -30,8 +31,8 @@ struct StudioOptions {
   fs::path folder;
 };
 
-struct HearOptions {
-  fs::path sound, folder;
+struct JobOptions {
+  fs::path file, folder;
 };
 
 // The desktop's own browser; where there is none, the address that was printed has to do.
@@ -88,9 +89,20 @@ int runStudio(const StudioOptions& options, CommandContext& context) {
   return context.succeed();
 }
 
-int runHear(const HearOptions& options, CommandContext& context) {
-  const auto heard = studio::hearSound(options.sound, options.folder);
-  return heard ? context.succeed() : context.fail(heard.error());
+/// A job of the studio's own, which is not in the help.
+void addJob(CLI::App& app, CommandContext& context, const char* name, const char* what,
+            Result<void> (*work)(const fs::path& file, const fs::path& folder)) {
+  auto options = std::make_shared<JobOptions>();
+  CLI::App* job = app.add_subcommand(name, what);
+  job->group("");
+  job->add_option("FILE", options->file)->required();
+  job->add_option("FOLDER", options->folder)->required();
+  job->callback([options, work, &context] {
+    context.action = [options, work, &context] {
+      const auto done = work(options->file, options->folder);
+      return done ? context.succeed() : context.fail(done.error());
+    };
+  });
 }
 
 }  // namespace
@@ -107,13 +119,8 @@ void addStudioCommands(CLI::App& app, CommandContext& context) {
   command->callback([options, &context] {
     context.action = [options, &context] { return runStudio(*options, context); };
   });
-  auto hear = std::make_shared<HearOptions>();
-  CLI::App* job = app.add_subcommand("studio-hear", "a sound for the studio's page");
-  job->group("");  // not in the help: a job of the studio's own
-  job->add_option("SOUND", hear->sound)->required();
-  job->add_option("FOLDER", hear->folder)->required();
-  job->callback(
-      [hear, &context] { context.action = [hear, &context] { return runHear(*hear, context); }; });
+  addJob(app, context, "studio-hear", "a sound for the studio's page", studio::hearSound);
+  addJob(app, context, "studio-mesh", "a mesh for the studio's page", studio::readMesh);
 }
 
 }  // namespace ifa::cli

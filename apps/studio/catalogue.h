@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -20,6 +21,7 @@ struct CatalogueEntry {
   /// Unit directions in the body frame. Not Eigen's vectors: cpp-httplib brings a macro, _res, that
   /// Eigen's headers do not survive.
   std::map<std::string, std::array<double, 3>> faces;
+  std::filesystem::path file = {};  ///< empty: the library's, by name
 };
 
 /// By name. Object files that cannot be read are left out. Errors: no library.

@@ -15,12 +15,14 @@
 
 namespace ifa::studio {
 
-/// Every text in it is one of the catalogue's; no other text of a request becomes an argument.
+/// Every text in it is one of the catalogue's, the file included; no other text of a request
+/// becomes an argument.
 struct PlanRequest {
   std::vector<Label> marks;  ///< with weights: 1 where a person has confirmed it
   bool terminal = true;
-  std::string object, surface;  ///< surface empty: the object's own
-  std::string face;             ///< to lie on top at the end; empty: any
+  std::string object, surface;       ///< surface empty: the object's own
+  std::filesystem::path objectFile;  ///< of an object that is none of the library's
+  std::string face;                  ///< to lie on top at the end; empty: any
   bool fit = false;
   int takes = 3;          ///< 1 to 6
   std::int64_t seed = 1;  ///< 0 to 2^53

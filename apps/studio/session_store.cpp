@@ -115,6 +115,27 @@ Answer<fs::path> SessionStore::folder(const std::string& session) const {
   return root_ / session;
 }
 
+Answer<fs::path> SessionStore::createDraft(const std::string& session) {
+  const std::scoped_lock lock(mutex_);
+  const auto path = folder(session);
+  if (!path) return tl::unexpected(path.error());
+  std::error_code code;
+  const auto name = drawName();
+  if (!name || !fs::create_directory(*path / ("draft-" + *name), code) || code) {
+    return refuse(507, "no folder could be made", "is the disk full?");
+  }
+  return *path / ("draft-" + *name);
+}
+
+bool SessionStore::keepDraft(const fs::path& draft, const std::string& name) {
+  const std::scoped_lock lock(mutex_);
+  const fs::path kept = draft.parent_path() / name;
+  removeAll(kept);
+  std::error_code code;
+  fs::rename(draft, kept, code);
+  return !code;
+}
+
 Answer<int> SessionStore::createPlan(const std::string& session) {
   const std::scoped_lock lock(mutex_);
   const auto path = folder(session);

@@ -31,6 +31,11 @@ class SessionStore {
   /// The folder of a session that exists. Refuses (404) anything else.
   [[nodiscard]] Answer<std::filesystem::path> folder(const std::string& session) const;
 
+  /// A new folder in the session's, for what is not sure to be kept.
+  [[nodiscard]] Answer<std::filesystem::path> createDraft(const std::string& session);
+  /// Makes a draft the session's folder `name`, in place of the one before.
+  [[nodiscard]] bool keepDraft(const std::filesystem::path& draft, const std::string& name);
+
   /// The number of a new plan, whose folder is there.
   [[nodiscard]] Answer<int> createPlan(const std::string& session);
   void removePlan(const std::string& session, int plan);

@@ -14,6 +14,7 @@
 #include "studio/catalogue.h"
 #include "studio/guard.h"
 #include "studio/job_events.h"
+#include "studio/own_object.h"
 #include "studio/plan_request.h"
 #include "studio/session_store.h"
 
@@ -48,6 +49,14 @@ const std::map<std::string, std::string>& takeFiles() {
                                                             {"contacts.csv", "text/csv"},
                                                             {"sound.wav", "audio/wav"},
                                                             {"film.mp4", "video/mp4"}};
+  return kFiles;
+}
+
+/// Of a session's own mesh, as they can be had, with their types.
+const std::map<std::string, std::string>& meshFiles() {
+  static const std::map<std::string, std::string> kFiles = {{"mesh.obj", "text/plain"},
+                                                            {"mesh.mtl", "text/plain"},
+                                                            {"upload", "application/octet-stream"}};
   return kFiles;
 }
 
@@ -133,6 +142,29 @@ void throwAway(const Request& request, const ContentReader& reader) {
 Json readJson(const fs::path& path) {
   const auto text = readFile(path, kMaxJson);
   return text ? Json::parse(*text, nullptr, false) : Json();
+}
+
+/// What a job's failure is, for a person to whom the file's name and place here mean nothing.
+Refusal refusalOfFailure(const JobEnd& end, const fs::path& file) {
+  const Json failure = failureOf(end);
+  std::string message = failure["message"];
+  const std::string name = file.filename().string() + ": ";
+  if (message.rfind(name, 0) == 0) message = message.substr(name.size());
+  // Libraries write the whole path into what they tell.
+  const std::string path = file.string();
+  for (auto at = message.find(path); at != std::string::npos; at = message.find(path)) {
+    message.replace(at, path.size(), "it");
+  }
+  return {422, message, failure["remedy"]};
+}
+
+/// A session's own mesh as the page knows it; null where there is none.
+Json meshOf(const fs::path& session) {
+  const Json kind = readJson(session / "mesh" / "kind.json");
+  if (!kind.is_object()) return {};
+  return {{"name", kind.value("name", "")},
+          {"kind", kind.value("kind", "")},
+          {"report", readJson(session / "mesh" / "report.json")}};
 }
 
 /// The folder of a take. `ifa sync` makes none where there is only one.
@@ -225,6 +257,7 @@ class Studio::Routes {
     if (isLike(path, {"api", "sessions", "*", "plans", "*", "takes", "*", "*"})) {
       return getTakeFile(path, response);
     }
+    if (isLike(path, {"api", "sessions", "*", "mesh", "*"})) return getMeshFile(path, response);
     answer(response, Refusal{404, "there is no such page", {}});
   }
 
@@ -242,6 +275,12 @@ class Studio::Routes {
     if (post && isLike(path, {"api", "sessions", "*", "plans", "*", "takes", "*", "film"})) {
       return postFilm(path, request, response, reader);
     }
+    if (post && isLike(path, {"api", "sessions", "*", "mesh"})) {
+      return postMesh(path[2], request, response, reader);
+    }
+    if (post && isLike(path, {"api", "sessions", "*", "object"})) {
+      return postObject(path[2], request, response, reader);
+    }
     answer(response, Refusal{404, "there is nothing to send this to", {}});
   }
 
@@ -253,6 +292,7 @@ class Studio::Routes {
     answer(response, Json{{"session", session},
                           {"name", readJson(*folder / "name.json")},
                           {"heard", heard},
+                          {"mesh", meshOf(*folder)},
                           {"state", readJson(*folder / "state.json")}});
   }
 
@@ -289,22 +329,110 @@ class Studio::Routes {
       store_->remove(*session);
       return answer(response, Refusal{400, "the sound broke off on its way", "try again"});
     }
-    const Job job = {settings_.program,
-                     {"studio-hear", original.string(), folder.string(), "--json-progress"},
-                     [this] { return !stopping_; },
-                     {}};
-    const JobEnd end = runJob(job, turn, [](const std::string&, const Json&) { return true; });
+    const JobEnd end =
+        runQuietly({"studio-hear", original.string(), folder.string(), "--json-progress"}, turn);
     const Json name = request.get_param_value("name").substr(0, kMaxName);
     const bool heard = end.child.code == 0;
     if (!heard || !writeFileAtomically(folder / "name.json", textOf(name))) {
       store_->remove(*session);
-      const Json failure = failureOf(end);
-      // The file's name means nothing to who dropped it.
-      std::string message = failure["message"];
-      if (message.rfind("original: ", 0) == 0) message = message.substr(10);
-      return answer(response, Refusal{422, message, failure["remedy"]});
+      return answer(response, refusalOfFailure(end, original));
     }
     getSession(*session, response);
+  }
+
+  /// A job whose progress nobody is told.
+  JobEnd runQuietly(std::vector<std::string> arguments, const JobSlots::Turn& turn) {
+    const Job job = {settings_.program, std::move(arguments), [this] { return !stopping_; }, {}};
+    return runJob(job, turn, [](const std::string&, const Json&) { return true; });
+  }
+
+  void getMeshFile(const Path& path, Response& response) {
+    const auto folder = store_->folder(path[2]);
+    if (!folder) return answer(response, folder.error());
+    const auto file = meshFiles().find(path[4]);
+    const Json mesh = meshOf(*folder);
+    if (file == meshFiles().end() || mesh.is_null()) {
+      return answer(response, Refusal{404, "there is no such file", {}});
+    }
+    const auto kind = meshKind(mesh["kind"]);
+    const std::string name = file->first == "upload" ? "upload." + kind.value_or("") : file->first;
+    answerFile(response, *folder / "mesh" / name, file->second);
+  }
+
+  void postMesh(const std::string& session, const Request& request, Response& response,
+                const ContentReader& reader) {
+    const auto kind = meshKind(request.get_param_value("kind"));
+    if (!kind) return answer(response, Refusal{422, "this is no kind of mesh that is read", {}});
+    if (lengthOf(request) > kMaxMeshFile) {
+      return answer(response, Refusal{413, "the mesh is larger than 32 MiB", "simplify it"});
+    }
+    auto turn = slots_.enter();
+    if (!turn.queued()) {
+      throwAway(request, reader);
+      return answer(response, busy());
+    }
+    const auto draft = store_->createDraft(session);
+    if (!draft) return answer(response, draft.error());
+    if (const auto refusal = readInto(*draft, *kind, request, reader, turn)) {
+      std::error_code ignored;
+      fs::remove_all(*draft, ignored);
+      return answer(response, *refusal);
+    }
+    answer(response, meshOf(draft->parent_path()));
+  }
+
+  /// Reads the body as a mesh into the draft, which then is the session's mesh.
+  std::optional<Refusal> readInto(const fs::path& draft, const std::string& kind,
+                                  const Request& request, const ContentReader& reader,
+                                  const JobSlots::Turn& turn) {
+    const std::string name = "upload." + kind;
+    if (!receiveFile(request, reader, draft / name)) {
+      return Refusal{400, "the mesh broke off on its way", "try again"};
+    }
+    const JobEnd end = runQuietly(
+        {"studio-mesh", (draft / name).string(), draft.string(), "--json-progress"}, turn);
+    if (end.child.code != 0) return refusalOfFailure(end, draft / name);
+    const Json told = {{"name", request.get_param_value("name").substr(0, kMaxName)},
+                       {"kind", kind}};
+    if (writeFileAtomically(draft / "kind.json", textOf(told)) &&
+        store_->keepDraft(draft, "mesh")) {
+      return std::nullopt;
+    }
+    return Refusal{507, "the mesh cannot be written", "is the disk full?"};
+  }
+
+  void postObject(const std::string& session, const Request& request, Response& response,
+                  const ContentReader& reader) {
+    const auto folder = store_->folder(session);
+    if (!folder) return answer(response, folder.error());
+    const auto text = readText(request, reader);
+    if (!text) return answer(response, text.error());
+    const auto wanted = parseOwnObject(*text);
+    if (!wanted) return answer(response, wanted.error());
+    if (meshOf(*folder).is_null()) {
+      return answer(response, Refusal{404, "there is no mesh", "drop one first"});
+    }
+    auto turn = slots_.enter();
+    if (!turn.queued()) return answer(response, busy());
+    const JobEnd end = runQuietly(objectsArguments(*wanted, *folder / "mesh"), turn);
+    if (end.child.code != 0)
+      return answer(response, refusalOfFailure(end, *folder / "mesh" / "mesh.obj"));
+    answer(response, Json::object());
+  }
+
+  /// The library, and the session's own object where it has one.
+  [[nodiscard]] std::map<std::string, CatalogueEntry> objectsOf(const fs::path& session) const {
+    auto objects = catalogue_;
+    const fs::path own = session / "mesh" / (std::string(kOwnObject) + ".json");
+    std::error_code code;
+    if (fs::exists(own, code)) {
+      CatalogueEntry& entry = objects[kOwnObject];
+      entry = {};
+      entry.defaultSurface = "desk";
+      entry.surfaces = {"desk"};
+      entry.file = own;
+    }
+    return objects;
   }
 
   static void postLabels(const Request& request, Response& response, const ContentReader& reader) {
@@ -340,7 +468,7 @@ class Studio::Routes {
     if (!folder) return answer(response, folder.error());
     const auto text = readText(request, reader);
     if (!text) return answer(response, text.error());
-    const auto wanted = parsePlanRequest(*text, catalogue_);
+    const auto wanted = parsePlanRequest(*text, objectsOf(*folder));
     if (!wanted) return answer(response, wanted.error());
     auto turn = std::make_shared<JobSlots::Turn>(slots_.enter());
     if (!turn->queued()) return answer(response, busy());
