@@ -172,6 +172,47 @@ async function project(page, count) {
   assert.ok((await motion()) === before, 'the same motion');
 }
 
+/** A box of 30 x 20 x 10 as text STL: solid, then without its last two triangles. */
+function boxAsStl(triangles) {
+  const corner = (i) => [30 * (i & 1), 20 * ((i >> 1) & 1), 10 * (i >> 2)];
+  const sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+  const facets = sides.flatMap(([a, b, c, d]) => [[a, b, c], [a, c, d]]).slice(0, triangles)
+    .map((facet) => `facet normal 0 0 0\nouter loop\n${facet.map((i) => `vertex ${corner(i).join(' ')}\n`).join('')}endloop\nendfacet\n`);
+  return Buffer.from(`solid box\n${facets.join('')}endsolid box\n`);
+}
+
+/** A mesh of one's own: explained, given a size and a material, animated, and there after a reload. */
+async function ownMesh(page) {
+  const drawn = () => page.waitForFunction(() => performance.getEntriesByName('mesh drawn').length > 0);
+  await page.setInputFiles('#mesh-file', {name: 'open.stl', mimeType: '', buffer: boxAsStl(10)});
+  await page.waitForSelector('#mesh[open]');
+  assert.match(await page.textContent('#mesh-problems'), /It has holes: at 4 edges/);
+  assert.ok(await page.isDisabled('#mesh-solid'));
+  await page.evaluate(() => performance.clearMarks('mesh drawn'));
+  await page.setInputFiles('#mesh-file', {name: 'box.stl', mimeType: '', buffer: boxAsStl(12)});
+  await page.waitForFunction(() => document.getElementById('mesh-title').textContent === 'box.stl');
+  assert.equal(await page.textContent('#mesh-size'), '30 × 20 × 10 mm');
+  await page.selectOption('#mesh-units', 'm');
+  assert.ok(await page.isDisabled('#mesh-use'));
+  await page.selectOption('#mesh-units', 'mm');
+  await page.selectOption('#mesh-material', 'wood');
+  assert.equal(await page.inputValue('#mesh-mass'), '4.2');
+  await drawn();
+  await page.waitForTimeout(pictures ? 500 : 0);
+  await checkAccess(page, 'own mesh');
+  await picture(page, 'studio-mesh.png');
+  await page.click('#mesh-use');
+  await page.waitForSelector('#mesh:not([open])', {state: 'attached'});
+  await animate(page);
+  const mass = () => page.evaluate(async () => (await (await fetch(document.querySelector('a[data-file="motion.json"]').href)).json()).object.mass);
+  assert.ok(Math.abs((await mass()) - 0.0042) < 1e-6);
+  await page.waitForTimeout(500);
+  await page.reload();
+  await page.waitForSelector('.take');
+  assert.equal(await page.textContent('#object-title'), 'box');
+  assert.match(await page.textContent('#object-note'), /^wood, 4.2 g$/);
+}
+
 /** Chromium's own microphone beeps once a second. */
 async function record(page) {
   await page.click('#new-sound');
@@ -226,6 +267,8 @@ await withStudio(program, async ({page, context, studio, folder}) => {
   await checkAccess(page, 'objects');
   await picture(page, 'studio-objects.png');
   await page.click('#objects [data-close]');
+  await page.emulateMedia({colorScheme: 'light'});
+  await ownMesh(page);
   await project(page, count);
   await record(page);
   assert.deepEqual(problems, []);

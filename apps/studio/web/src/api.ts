@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the studio's server is asked, and what it tells.
+import type {OwnMesh} from './own';
 
 export interface CatalogueObject {
   name: string;
@@ -21,6 +22,7 @@ export interface Session {
   session: string;
   name: string;
   heard: Heard;
+  mesh: OwnMesh | null;
   state: unknown;
 }
 
@@ -112,6 +114,29 @@ export async function sendSound(file: Blob, name: string): Promise<Session> {
 
 export async function session(id: string): Promise<Session> {
   return (await ask(`/api/sessions/${encodeURIComponent(id)}`)).json() as Promise<Session>;
+}
+
+export async function sendMesh(id: string, file: Blob, name: string, kind: string): Promise<OwnMesh> {
+  if (file.size > 32 << 20) throw new StudioError('the mesh is larger than 32 MiB', 'simplify it: a few thousand triangles are enough');
+  const headers = {'Content-Type': 'application/octet-stream'};
+  const path = `/api/sessions/${id}/mesh?kind=${kind}&name=${encodeURIComponent(name.slice(0, 100))}`;
+  return (await ask(path, {method: 'POST', headers, body: file})).json() as Promise<OwnMesh>;
+}
+
+/** Makes the session's own object of its mesh. */
+export async function makeObject(id: string, request: Record<string, unknown>): Promise<void> {
+  await ask(`/api/sessions/${id}/object`, json(request));
+}
+
+const meshFile = (id: string, file: string): Promise<Response> => ask(`/api/sessions/${id}/mesh/${file}`);
+
+export async function meshText(id: string, file: 'mesh.obj' | 'mesh.mtl'): Promise<string> {
+  return (await meshFile(id, file)).text();
+}
+
+/** The mesh as it was sent. */
+export async function sentMesh(id: string): Promise<Uint8Array<ArrayBuffer>> {
+  return new Uint8Array(await (await meshFile(id, 'upload')).arrayBuffer());
 }
 
 export async function saveState(id: string, state: unknown): Promise<void> {

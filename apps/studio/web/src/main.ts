@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page: what a person does, and what follows from it.
 import * as api from './api';
+import {$, button, download, downloadText, showTip, tellError, toast, whileBusy} from './dom';
 import {bendColour, contactsOfMarks, explain} from './bend';
 import {added, ended, History, labelTrack, mergedWithNext, moved, nextId, removed, split, type Mark, type Marking} from './marks';
+import {CurrentJob} from './job';
+import {MeshSheet} from './mesh_sheet';
 import {fillGrid, pictureOf} from './objects';
+import {kMaterials, kOwnObject, massOf, meshKindOf, objectRequest, roundTo3, type OwnObject} from './own';
 import {Player} from './player';
 import {nearestOnset, Waveform} from './signal';
 import {Timeline} from './timeline';
-import {kMaxRecording, Recorder} from './recorder';
-import {emptySaved, readProject, readSaved, writeProject, type Saved} from './saved';
+import {recordOrStop} from './record_button';
+import {emptySaved, readProject, readSaved, writeProject, type Project, type Saved} from './saved';
 import exampleUrl from './example.wav?url';
 import type {OrbitControls, Stage, TakeScene} from './stage';
 
@@ -18,9 +22,6 @@ interface Take {
   button: HTMLButtonElement;
   canvas: HTMLCanvasElement;
 }
-
-const $ = <T extends HTMLElement = HTMLElement>(id: string): T => document.getElementById(id) as T;
-const button = (id: string): HTMLButtonElement => $<HTMLButtonElement>(id);
 
 let catalogue: api.CatalogueObject[] = [];
 let session: api.Session | null = null;
@@ -32,51 +33,26 @@ let saved: Saved = emptySaved();
 let takes: Take[] = [];
 let stage: Stage | null = null;
 let controls: OrbitControls | null = null;
-let job: AbortController | null = null;
-
-// ---- telling -------------------------------------------------------------------------------------
-
-let toastTimer = 0;
-function toast(text: string): void {
-  $('toast').textContent = text;
-  $('toast').hidden = false;
-  clearTimeout(toastTimer);
-  toastTimer = window.setTimeout(() => ($('toast').hidden = true), 6000);
-}
-
-function tellError(error: unknown): void {
-  if (error instanceof DOMException && error.name === 'AbortError') return;
-  const remedy = error instanceof api.StudioError && error.remedy ? ` — ${error.remedy}` : '';
-  const text = error instanceof Error ? error.message : String(error);
-  toast(text.charAt(0).toUpperCase() + text.slice(1) + remedy);
-}
-
-function showTip(text: string, x: number, y: number): void {
-  const tip = $('tip');
-  tip.hidden = text === '';
-  tip.textContent = text;
-  tip.style.left = `${Math.min(x + 14, innerWidth - 290)}px`;
-  tip.style.top = `${Math.min(y + 16, innerHeight - tip.offsetHeight - 8)}px`;
-}
+const job = new CurrentJob(() => showPlanButton());
 
 // ---- the sound -----------------------------------------------------------------------------------
 
-/** A sound, or a project. */
+/** A sound, a project, or a mesh. */
 async function openFile(file: Blob, name: string): Promise<void> {
-  document.body.classList.add('busy');
-  try {
+  if (meshKindOf(name)) return openMesh(file, name);
+  await whileBusy(async () => {
     const project = name.endsWith('.ifa-project') ? readProject(await file.text()) : null;
-    if (project) return await openProject(project.name, project.sound, project.saved);
-    await openSession(await api.sendSound(file, name));
-  } catch (error) {
-    tellError(error);
-  } finally {
-    document.body.classList.remove('busy');
-  }
+    if (project) await openProject(project);
+    else await openSession(await api.sendSound(file, name));
+  });
 }
 
-async function openProject(name: string, sound: Uint8Array<ArrayBuffer>, state: Saved): Promise<void> {
+async function openProject({name, sound, saved: state, mesh}: Project): Promise<void> {
   const opened = await api.sendSound(new Blob([sound]), name);
+  if (mesh && state.own) {
+    opened.mesh = await api.sendMesh(opened.session, new Blob([mesh.bytes]), mesh.name, meshKindOf(mesh.name)!);
+    await api.makeObject(opened.session, objectRequest(opened.mesh.report, state.own));
+  }
   await openSession({...opened, state: {...state, plan: null}});
   save();
   if (state.plan) void animate(); // the same contacts and seed give the same takes
@@ -85,31 +61,9 @@ async function openProject(name: string, sound: Uint8Array<ArrayBuffer>, state: 
 async function saveProject(): Promise<void> {
   if (!session) return;
   const sound = new Uint8Array(await (await fetch(api.soundFile(session.session))).arrayBuffer());
-  downloadText(`${stem()}.ifa-project`, writeProject({name: session.name, sound, saved: {...saved, marking: history.present}}));
-}
-
-let recorder: Recorder | null = null;
-async function record(): Promise<void> {
-  const label = button('record');
-  try {
-    if (recorder) {
-      const sound = await recorder.stop();
-      recorder = null;
-      label.textContent = 'Record';
-      return await openFile(sound, 'recording.wav');
-    }
-    recorder = await Recorder.start();
-  } catch (error) {
-    recorder = null;
-    return toast(`The microphone cannot be used: ${error instanceof Error ? error.message : String(error)}`);
-  }
-  const show = (): void => {
-    if (!recorder) return;
-    label.textContent = `Stop · ${recorder.seconds.toFixed(1)} s`;
-    if (recorder.seconds >= kMaxRecording) void record();
-    else setTimeout(show, 100);
-  };
-  show();
+  const own = saved.object === kOwnObject ? session.mesh : null;
+  const mesh = own && {name: `${own.name || 'mesh'}.${own.kind}`, bytes: await api.sentMesh(session.session)};
+  downloadText(`${stem()}.ifa-project`, writeProject({name: session.name, sound, saved: {...saved, marking: history.present}, mesh}));
 }
 
 async function openSession(opened: api.Session): Promise<void> {
@@ -121,7 +75,8 @@ async function openSession(opened: api.Session): Promise<void> {
   session = opened;
   wave = new Waveform(decoded.getChannelData(0), decoded.sampleRate);
   player = new Player(bytes, duration);
-  saved = {...emptySaved(), object: saved.object, surface: saved.surface};
+  // The object is likely the same one, unless it belongs to the session before.
+  saved = saved.object === kOwnObject ? emptySaved() : {...emptySaved(), object: saved.object, surface: saved.surface};
   const marks = contacts.map((contact, i) => ({...contact, id: i + 1}));
   history = new History<Marking>({marks, terminal: true});
   const before = readSaved(opened.state);
@@ -143,7 +98,7 @@ async function openSession(opened: api.Session): Promise<void> {
 }
 
 function closeSession(): void {
-  job?.abort();
+  job.cancel();
   player?.close();
   dropTakes();
   chosen = null;
@@ -281,20 +236,7 @@ function tipOfMark(id: number): string {
 
 // ---- labels --------------------------------------------------------------------------------------
 
-function download(name: string, href: string): void {
-  const link = document.createElement('a');
-  link.href = href;
-  link.download = name;
-  link.click();
-}
-
 const stem = (): string => (session?.name || 'sound').replace(/\.[^.]*$/, '');
-
-function downloadText(name: string, text: string): void {
-  const url = URL.createObjectURL(new Blob([text], {type: 'text/plain'}));
-  download(name, url);
-  setTimeout(() => URL.revokeObjectURL(url), 10000);
-}
 
 const saveLabels = (): void => downloadText(`${stem()}.txt`, labelTrack(history.present));
 
@@ -354,7 +296,7 @@ function frame(): void {
   if (!take?.scene || !stage) return;
   ++turn;
   // While something is planned, the processor is the planner's.
-  const small = !job && turn % 4 === 0 && drawSmall(time);
+  const small = !job.runs && turn % 4 === 0 && drawSmall(time);
   take.scene.setTime(time, controls ?? undefined);
   controls?.update();
   const now = `${saved.plan?.number} ${saved.take} ${time} ${take.scene.camera.position.toArray()} ${innerWidth} ${innerHeight} ${theme}`;
@@ -378,7 +320,49 @@ function drawSmall(time: number): boolean {
 
 // ---- what fell, and how --------------------------------------------------------------------------
 
-const chosenObject = (): api.CatalogueObject | undefined => catalogue.find((one) => one.name === saved.object);
+function chosenObject(): api.CatalogueObject | undefined {
+  if (saved.object !== kOwnObject) return catalogue.find((one) => one.name === saved.object);
+  const {own} = saved;
+  if (!own || !session?.mesh) return undefined;
+  const material = `${kMaterials[own.material]!.name}, ${roundTo3(massOf(session.mesh.report, own))} g`;
+  return {name: kOwnObject, title: own.name, material, surface: 'desk', surfaces: ['desk'], faces: {}};
+}
+
+// ---- an object of one's own ----------------------------------------------------------------------
+
+const sheet = new MeshSheet(useOwn, () => $('mesh-file').click());
+
+async function openMesh(file: Blob, name: string): Promise<void> {
+  const opened = session;
+  const kind = meshKindOf(name);
+  if (!opened) return toast('First the sound, then the object that made it.');
+  if (!kind) return toast('A mesh is wanted: OBJ, STL, PLY, OFF or GLB.');
+  await whileBusy(async () => {
+    opened.mesh = await api.sendMesh(opened.session, file, name, kind);
+    if (session !== opened) return;
+    // The one before is no more.
+    saved.own = null;
+    if (saved.object === kOwnObject) saved.object = '';
+    $<HTMLDialogElement>('objects').close();
+    showChoice();
+    save();
+    sheet.open(opened.session, opened.mesh, null);
+  });
+}
+
+/** What was said of the session's mesh; where it has none, to choose one. */
+function openOwn(): void {
+  if (!session?.mesh) return $('mesh-file').click();
+  $<HTMLDialogElement>('objects').close();
+  sheet.open(session.session, session.mesh, saved.own);
+}
+
+function useOwn(own: OwnObject): void {
+  Object.assign(saved, {own, object: kOwnObject, surface: '', face: ''});
+  showChoice();
+  save();
+}
+
 
 const facesOf = (object: api.CatalogueObject | undefined): string[] =>
   Object.keys(object?.faces ?? {}).sort((a, b) => a.localeCompare(b, 'en', {numeric: true}));
@@ -386,7 +370,8 @@ const facesOf = (object: api.CatalogueObject | undefined): string[] =>
 function showChoice(): void {
   const object = chosenObject();
   const picture = $('object').querySelector<HTMLElement>('.picture')!;
-  picture.style.backgroundImage = object ? pictureOf(object.name) : 'none';
+  picture.style.backgroundImage = !object ? 'none' : object.name === kOwnObject ? `url("${saved.own?.picture ?? ''}")` : pictureOf(object.name);
+  $('own-change').hidden = object?.name !== kOwnObject;
   picture.textContent = object ? '' : '?';
   $('object-title').textContent = object?.title ?? 'Choose an object';
   $('object-note').textContent = object ? object.material || 'change…' : 'what made the sound?';
@@ -430,63 +415,23 @@ function chooseObject(name: string): void {
 
 function showPlanButton(): void {
   const plan = button('plan');
-  plan.disabled = !saved.object || history.present.marks.length === 0;
-  plan.textContent = job ? 'Cancel' : stale() ? 'Animate again' : 'Animate';
-  if (job) plan.disabled = false;
-}
-
-const kStages: Record<string, string> = {
-  learn: 'Getting to know the object', build: 'Dropping it many times', index: 'Dropping it many times',
-  search: 'Looking for motions', film: 'Drawing the film',
-};
-
-function showProgress(event: string, data: Record<string, unknown>): void {
-  const bar = $('progress').querySelector('progress')!;
-  if (event === 'queued') {
-    const before = Number(data['before']);
-    $('stage-name').textContent = before > 0 ? `Waiting for ${before} other job${before === 1 ? '' : 's'}` : 'Starting';
-  } else if (event === 'progress') {
-    const name = String(data['stage']);
-    $('stage-name').textContent = kStages[name] ?? name.charAt(0).toUpperCase() + name.slice(1);
-    bar.value = Number(data['value']);
-  }
-}
-
-/** Runs one job at a time; another call cancels the first. */
-async function withJob<T>(work: (signal: AbortSignal) => Promise<T>): Promise<T | null> {
-  job?.abort();
-  const own = new AbortController();
-  job = own;
-  $('stage-name').textContent = 'Starting';
-  $('progress').querySelector('progress')!.value = 0;
-  $('progress').hidden = false;
-  showPlanButton();
-  try {
-    return await work(own.signal);
-  } catch (error) {
-    tellError(error);
-    return null;
-  } finally {
-    if (job === own) {
-      job = null;
-      $('progress').hidden = true;
-    }
-    showPlanButton();
-  }
+  plan.disabled = !chosenObject() || history.present.marks.length === 0;
+  plan.textContent = job.runs ? 'Cancel' : stale() ? 'Animate again' : 'Animate';
+  if (job.runs) plan.disabled = false;
 }
 
 async function animate(): Promise<void> {
   const id = session?.session;
   const {marks, terminal} = history.present;
   if (!id) return;
-  if (!saved.object) return openObjects();
+  if (!chosenObject()) return openObjects();
   if (marks.length === 0) return;
   const request: api.PlanRequest = {
     marks: marks.map(({start, end, confidence}) => ({start, end, weight: confidence >= 0.9 ? 1 : Math.max(0.01, confidence)})),
     terminal, object: saved.object, surface: saved.surface, face: saved.face, fit: saved.fit, takes: saved.takes, seed: saved.seed,
   };
   const started = performance.now();
-  const result = await withJob((signal) => api.plan(id, request, showProgress, signal));
+  const result = await job.run((signal, tell) => api.plan(id, request, tell, signal));
   if (!result) return;
   const failure = result.failure ? [result.failure.message, result.failure.remedy].filter(Boolean).join(' — ') : '';
   saved.plan = {number: result.plan, takes: result.takes, marks, failure};
@@ -614,8 +559,8 @@ async function exportFilm(final: boolean): Promise<void> {
   const plan = saved.plan;
   if (!id || !plan) return;
   const take = saved.take;
-  await withJob(async (signal) => {
-    await api.film(id, plan.number, take, final, showProgress, signal);
+  await job.run(async (signal, tell) => {
+    await api.film(id, plan.number, take, final, tell, signal);
     download(`${stem()}-take-${take}.mp4`, api.takeFile(id, plan.number, take, 'film.mp4'));
   });
 }
@@ -677,7 +622,7 @@ function wire(): void {
     $('sound-name').textContent = '';
   });
   on('example', () => void fetch(exampleUrl).then((answer) => answer.blob()).then((blob) => openFile(blob, 'example.wav')).catch(tellError));
-  on('record', () => void record());
+  on('record', () => void recordOrStop((sound) => openFile(sound, 'recording.wav')));
   on('save-project', () => void saveProject().catch(tellError));
   on('play', () => void togglePlay());
   on('loop', () => void toggleLoop());
@@ -693,7 +638,9 @@ function wire(): void {
   on('labels-in', () => $('labels-file').click());
   on('labels-out', saveLabels);
   on('object', openObjects);
-  on('plan', () => (job ? job.abort() : void animate()));
+  on('own-mesh', openOwn);
+  on('own-change', openOwn);
+  on('plan', () => (job.runs ? job.cancel() : void animate()));
   on('export-film', () => void exportFilm(false));
   on('export-hd', () => void exportFilm(true));
   on('help', () => $<HTMLDialogElement>('keys').showModal());
@@ -726,6 +673,7 @@ function wireFiles(): void {
   });
   picked('sound-file', (file) => openFile(file, file.name));
   picked('labels-file', loadLabels);
+  picked('mesh-file', (file) => openMesh(file, file.name));
   document.addEventListener('dragover', (event) => {
     event.preventDefault();
     document.body.classList.add('dropping');
@@ -759,7 +707,7 @@ function tipOfPlace(place: [number, number]): string {
   const contact = spot === null ? undefined : take?.motion.contacts[spot];
   const first = saved.plan?.marks[0]?.start ?? 0;
   if (take && contact && spot !== null) return explain(contact, spot, take.motion.bend.cap, first + contact.time);
-  const face = job ? null : faceAt(place);
+  const face = job.runs ? null : faceAt(place);
   return face === null || face === saved.face ? '' : `Click: ends with ${face} up`;
 }
 

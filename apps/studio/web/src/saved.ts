@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a reload or a project file brings back. Pure.
 import type {Mark, Marking} from './marks';
+import {isOwnObject, meshKindOf, type OwnObject} from './own';
 
 export interface Saved {
   version: 1;
   marking: Marking;
   object: string;
+  /** Where that is one's own. */
+  own: OwnObject | null;
   surface: string;
   face: string;
   fit: boolean;
@@ -16,7 +19,7 @@ export interface Saved {
 }
 
 export function emptySaved(): Saved {
-  return {version: 1, marking: {marks: [], terminal: true}, object: '', surface: '', face: '', fit: false,
+  return {version: 1, marking: {marks: [], terminal: true}, object: '', own: null, surface: '', face: '', fit: false,
           takes: 3, seed: 1, plan: null, take: 1};
 }
 
@@ -42,7 +45,8 @@ export function readSaved(value: unknown): Saved | null {
   const good = areMarks(marks) && typeof terminal === 'boolean' && isPlan(value['plan']) && typeof value['fit'] === 'boolean' &&
     ['object', 'surface', 'face'].every((name) => typeof value[name] === 'string') &&
     ['takes', 'seed', 'take'].every((name) => isNumber(value[name]));
-  return good ? (value as unknown as Saved) : null;
+  const own = value['own'] ?? null; // there was none in earlier versions
+  return good && (own === null || isOwnObject(own)) ? ({...value, own} as unknown as Saved) : null;
 }
 
 /** A session in one file: its sound and all that was done. Takes are planned anew from it, and are the same. */
@@ -50,14 +54,28 @@ export interface Project {
   name: string;
   sound: Uint8Array<ArrayBuffer>;
   saved: Saved;
+  /** The mesh of one's own object, as it was sent. */
+  mesh: {name: string; bytes: Uint8Array<ArrayBuffer>} | null;
 }
 
 const kFormat = 'inverse-foley-project';
 
-export function writeProject({name, sound, saved}: Project): string {
+function encode(bytes: Uint8Array): string {
   let text = '';
-  for (let at = 0; at < sound.length; at += 0x8000) text += String.fromCharCode(...sound.subarray(at, at + 0x8000));
-  return JSON.stringify({format: kFormat, version: 1, name, state: saved, sound: btoa(text)});
+  for (let at = 0; at < bytes.length; at += 0x8000) text += String.fromCharCode(...bytes.subarray(at, at + 0x8000));
+  return btoa(text);
+}
+
+const decode = (text: string): Uint8Array<ArrayBuffer> => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+
+export function writeProject({name, sound, saved, mesh}: Project): string {
+  const own = mesh && {name: mesh.name, bytes: encode(mesh.bytes)};
+  return JSON.stringify({format: kFormat, version: 1, name, state: saved, sound: encode(sound), mesh: own});
+}
+
+function readMesh(value: unknown): Project['mesh'] {
+  if (!isObject(value) || typeof value['name'] !== 'string' || typeof value['bytes'] !== 'string') return null;
+  return meshKindOf(value['name']) ? {name: value['name'], bytes: decode(value['bytes'])} : null;
 }
 
 /** Null where the text is no project. */
@@ -68,7 +86,7 @@ export function readProject(text: string): Project | null {
     const saved = readSaved(value['state']);
     const {name, sound} = value;
     if (!saved || typeof name !== 'string' || typeof sound !== 'string') return null;
-    return {name, saved, sound: Uint8Array.from(atob(sound), (c) => c.charCodeAt(0))};
+    return {name, saved, sound: decode(sound), mesh: readMesh(value['mesh'])};
   } catch {
     return null;
   }
