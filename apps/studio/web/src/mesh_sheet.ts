@@ -27,6 +27,7 @@ export class MeshSheet {
     changes('mesh-wall', 'input', (own) => (own.wall = Math.max(0, Number(input('mesh-wall').value))));
     // An empty field: as the material has it.
     changes('mesh-mass', 'input', (own) => (own.mass = input('mesh-mass').value === '' ? null : Math.max(0, Number(input('mesh-mass').value))));
+    for (const id of ['mesh-wall', 'mesh-mass']) $(id).addEventListener('change', () => this.show()); // when it has been written
     button('mesh-use').addEventListener('click', () => void this.make());
     button('mesh-other').addEventListener('click', another);
     this.dialog.addEventListener('close', () => {
