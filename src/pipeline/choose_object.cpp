@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "base/paths.h"
 #include "body/object_file.h"
@@ -53,22 +54,33 @@ class Listener {
   std::map<double, ContactSignature> heard_;
 };
 
-/// How likely `object` is to make the sound. A single contact tells nothing.
-Result<double> likelihoodOf(const SynchronizeSettings& settings, Listener& listener,
-                            const Progress& progress) {
+/// One object with the sound as it is heard for it.
+struct Hearing {
+  ChosenBody chosen;
+  const ContactSignature* signature;
+};
+
+/// Errors: where the object lacks what the settings ask of it, too.
+Result<Hearing> hearWith(const SynchronizeSettings& settings, Listener& listener) {
   auto chosen = loadChosenBody(settings);
   if (!chosen) return tl::unexpected(chosen.error());
   const auto signature = listener.signature(chosen->body.definition.mergeGap);
   if (!signature) return tl::unexpected(signature.error());
   const auto wishes = plannedOrientations(settings.orientations, chosen->body, **signature);
   if (!wishes) return tl::unexpected(wishes.error());
-  if ((*signature)->events.size() < 2) return 0;
-  SurfaceProperties surface = chosen->body.definition.surfaces.at(chosen->surface);
+  return Hearing{std::move(*chosen), *signature};
+}
+
+/// Logarithm of how likely the object is to make the sound. A single contact tells nothing.
+double likelihoodOf(const Hearing& heard, const Progress& progress) {
+  if (heard.signature->events.size() < 2) return 0;
+  const ChosenBody& chosen = heard.chosen;
+  SurfaceProperties surface = chosen.body.definition.surfaces.at(chosen.surface);
   if (surface.referenceImpulse <= 0) {
     surface.referenceImpulse =
-        learnObject(chosen->body, surface, cacheFolder(), progress).referenceImpulse;
+        learnObject(chosen.body, surface, cacheFolder(), progress).referenceImpulse;
   }
-  return learnRhythm(chosen->body, surface, cacheFolder(), progress).log(**signature);
+  return learnRhythm(chosen.body, surface, cacheFolder(), progress).log(*heard.signature);
 }
 
 /// Likeliest first.
@@ -137,16 +149,14 @@ class Choice {
       }
       progress_("objects", 0.5 * static_cast<double>(i) / static_cast<double>(objects.size()));
       const SynchronizeSettings one = settingsWith(settings_, objects[i]);
-      const auto log = likelihoodOf(one, listener, silent_);
-      if (log) {
-        candidates.push_back({objects[i], *log, 0});
+      const auto heard = hearWith(one, listener);
+      if (heard) {
+        candidates.push_back({objects[i], likelihoodOf(*heard, silent_), 0});
         continue;
       }
-      if (!likelihoodOf(withoutDemands(one), listener, silent_)) {
-        return tl::unexpected(log.error());
-      }
-      if (aside_.empty()) lacking = log.error();
-      aside_.push_back({objects[i], false, false, 0, 0, log.error().text()});
+      if (!hearWith(withoutDemands(one), listener)) return tl::unexpected(heard.error());
+      if (aside_.empty()) lacking = heard.error();
+      aside_.push_back({objects[i], false, false, 0, 0, heard.error().text()});
     }
     if (candidates.empty()) return tl::unexpected(lacking);
     weigh(candidates);
