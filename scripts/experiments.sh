@@ -231,7 +231,6 @@ page() {
   say "the page is $out/README.md"
 }
 
-[ -z "${NOTE:-}" ] || echo "$NOTE" >"$work/note"
 all=(table1 graph paper_cut planners table2 orientations database_size reel)
 experiments() {
   for experiment in "${chosen[@]:-${all[@]}}"; do

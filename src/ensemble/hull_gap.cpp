@@ -9,7 +9,6 @@ namespace ifa {
 
 namespace {
 
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kExact = 1e-5;  // m
