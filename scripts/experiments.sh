@@ -1,14 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# [BIN=build/release/bin] [WORK=build/experiments] [OUT=docs/experiments] [NOTE="..."]
+# [BIN=build/release/bin] [WORK=build/experiments] [OUT=docs/experiments] [NOTE="..."] [ROWS="..."]
 #   experiments.sh [--quick] [EXPERIMENT...]
 # The paper's experiments: measures what is not yet in WORK and writes the page OUT/README.md with
 # tables, charts and the reel. Can be stopped and started again at any time: what is done is not done
 # again. Delete a folder of WORK to have that part anew, or all of WORK after a change of the program.
 # EXPERIMENT: table1 graph paper_cut planners table2 orientations database_size reel, all of them
-# without; or readings, two more hours of planner "graph"; or page, which only writes the page again.
-# NOTE stands at the top of the page: what else the machine did, for example. Needs python3 and, for
-# the reel, ffmpeg (scripts/install_packages.sh foreign).
+# without; or exact, printed or paper, other readings of planner "graph"; or page, which only writes
+# the page again. NOTE stands at the top of the page: what else the machine did, for example. ROWS
+# are the objects and surfaces to measure, "d6@desk Nut@desk", without it all of them. Needs python3
+# and, for the reel, ffmpeg (scripts/install_packages.sh foreign).
 # --quick: a few small searches of each kind, into WORK/quick, and a look at what was written: shows
 # that all of it works.
 set -euo pipefail
@@ -25,6 +26,7 @@ fi
 chosen=("$@")
 
 mapfile -t rows < <("$bin/make_evaluation" --rows)
+[ -z "${ROWS:-}" ] || read -ra rows <<<"$ROWS"
 drops=1500 limit=10 graph_limit=5 paper_limit=3 simulations=400000 seconds=60
 places="Lego2x4@desk:3:0.2 Garlic@wood:2:0.3 TapeDispenser@wood:3:0.35"
 wishes="d6@desk:5:1=up,2=up,3=up,4=up,5=up,6=up Lego2x2@desk:10:studs=up,studs=down"
@@ -95,43 +97,40 @@ report() {
   mv "$out/$name.json" "$work/$name.json"
 }
 
-# search VARIANT ROW: planner "graph" by one way of reading the paper (docs/branch-and-bound.md).
+# search READING ROW: planner "graph" by one way of reading the paper (docs/branch-and-bound.md):
+# graph, our own; exact, without images; printed; paper_cut, the first with the paper's cut of
+# events; paper, printed with that cut.
 search() {
-  local variant=$1 row=$2 name=${2%@*} kind=sets cut=audible count=$graph_limit options=() set
-  [ ! -e "$work/$variant/$row.json" ] || return 0
-  case $variant in
+  local reading=$1 row=$2 name=${2%@*} kind=sets cut=audible count=$graph_limit options=() set
+  [ ! -e "$work/$reading/$row.json" ] || return 0
+  case $reading in
     paper_cut | paper) kind=paper_sets cut=paper count=$paper_limit ;;
   esac
-  case $variant in
+  case $reading in
     exact) options=(--no-symmetry) ;;
     printed | paper) options=(--no-symmetry --printed-velocity --connection blend) ;;
   esac
   set=$(set_of "$row" $kind --cut $cut)
+  # The readings of one row share its database, no two rows are on the disk at a time.
+  [ -e "$large_cache/$row-$cut" ] || rm -rf "$large_cache"
   XDG_CACHE_HOME=$large_cache "$ifa" database build "$name" --surface "${row#*@}" \
     -n "$simulations" --cut $cut >/dev/null 2>>"$work/log"
-  XDG_CACHE_HOME=$large_cache evaluate "$variant/$row" "$set" --limit "$count" --jobs 2 \
+  touch "$large_cache/$row-$cut"
+  XDG_CACHE_HOME=$large_cache evaluate "$reading/$row" "$set" --limit "$count" --jobs 2 \
     --planner graph --early-exit 1 --simulations "$simulations" --processor-time \
     --time-limit "$seconds" --cut $cut "${options[@]}"
+}
+
+# searches READING...
+searches() {
+  for row in "${rows[@]}"; do
+    for reading in "$@"; do search "$reading" "$row"; done
+  done
   rm -rf "$large_cache"
 }
 
 table1() {
   for row in "${rows[@]}"; do evaluate "hybrid/$row" "$(set_of "$row")" --limit $limit; done
-}
-
-graph() {
-  for row in "${rows[@]}"; do search graph "$row"; done
-}
-
-paper_cut() {
-  for row in "${rows[@]}"; do search paper_cut "$row"; done
-}
-
-# Other readings of the paper: without images, as printed, as printed with its own cut of events.
-readings() {
-  for row in "${rows[@]}"; do
-    for reading in exact printed paper; do search $reading "$row"; done
-  done
 }
 
 planners() {
@@ -232,16 +231,28 @@ page() {
 }
 
 all=(table1 graph paper_cut planners table2 orientations database_size reel)
+readings=(graph exact printed paper_cut paper)
 experiments() {
+  local experiment chosen_readings=()
   for experiment in "${chosen[@]:-${all[@]}}"; do
-    case " ${all[*]} readings page " in
-      *" $experiment "*) [ "$experiment" = page ] || "$experiment" ;;
+    case " ${all[*]} ${readings[*]} page " in
+      *" $experiment "*) ;;
       *)
-        say "no experiment $experiment: ${all[*]} readings page"
+        say "no experiment $experiment: ${all[*]} ${readings[*]} page"
         exit 2
         ;;
     esac
   done
+  for experiment in "${readings[@]}"; do
+    [[ " ${chosen[*]:-${all[*]}} " != *" $experiment "* ]] || chosen_readings+=("$experiment")
+  done
+  for experiment in "${chosen[@]:-${all[@]}}"; do
+    case " ${readings[*]} page " in
+      *" $experiment "*) ;;
+      *) "$experiment" ;;
+    esac
+  done
+  [ ${#chosen_readings[@]} -eq 0 ] || searches "${chosen_readings[@]}"
 }
 
 [ -z "${NOTE:-}" ] || echo "$NOTE" >"$work/note"

@@ -7,6 +7,7 @@
 #include <tbb/parallel_pipeline.h>
 #include <tbb/partitioner.h>
 
+#include <algorithm>
 #include <atomic>
 #include <memory>
 
@@ -21,6 +22,15 @@ void parallelFor(std::size_t count, const std::function<void(std::size_t)>& body
         for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
       },
       tbb::simple_partitioner());
+}
+
+void parallelFor(std::size_t count, std::string_view stage, const Progress& progress,
+                 const std::function<void(std::size_t)>& body) {
+  constexpr std::size_t kTold = 50;  // calls between two reports
+  for (std::size_t begin = 0; begin < count && !progress.stopRequested(); begin += kTold) {
+    progress(stage, static_cast<double>(begin) / static_cast<double>(count));
+    parallelFor(std::min(kTold, count - begin), [&](std::size_t i) { body(begin + i); });
+  }
 }
 
 void makeInOrder(std::size_t count, std::size_t ahead, const std::function<void(std::size_t)>& make,

@@ -4,6 +4,9 @@
 
 #include <cstddef>
 #include <functional>
+#include <string_view>
+
+#include "ifa/progress.h"
 
 namespace ifa {
 
@@ -11,6 +14,11 @@ namespace ifa {
 /// belongs to i, so that the result does not depend on the number of threads. Exceptions pass to
 /// the caller.
 void parallelFor(std::size_t count, const std::function<void(std::size_t)>& body);
+
+/// The same, and tells `progress` under `stage` how far it is. Asked to stop, it leaves
+/// out what it has not begun.
+void parallelFor(std::size_t count, std::string_view stage, const Progress& progress,
+                 const std::function<void(std::size_t)>& body);
 
 /// Calls `make(i)` for i in [0, count) on the worker threads and `take(i)` for each in order, one
 /// at a time. At most `ahead` indices are made and not yet taken, and these follow each other, so

@@ -24,6 +24,13 @@ void FieldReader::fail(const std::string& field, std::string message, std::strin
                  std::move(remedy)};
 }
 
+void FieldReader::expectFormat(const std::string& format, const std::string& notOne) const {
+  if (text("format") != format) fail("format", fmt::format("is not \"{}\"", format), notOne);
+  if (const double version = number("version", {0, 1e9}); version != 1) {
+    fail("version", fmt::format("{:g} is not known to this program, only 1 is", version));
+  }
+}
+
 std::string FieldReader::text(const char* field, bool required, std::size_t longest) const {
   if (!has(field)) {
     if (required) fail(field, "is missing");

@@ -27,6 +27,9 @@ class FieldReader {
               std::optional<Error>& error);
 
   void fail(const std::string& field, std::string message, std::string remedy = {}) const;
+  /// Fails unless "format" is `format` and "version" is 1.
+  /// @param notOne  what is said of a file of another format: "this is not a score"
+  void expectFormat(const std::string& format, const std::string& notOne) const;
 
   [[nodiscard]] bool has(const char* field) const { return json_.contains(field); }
   [[nodiscard]] std::string text(const char* field, bool required = true,

@@ -146,12 +146,7 @@ void readShape(const FieldReader& reader, ObjectDefinition& definition) {
 }
 
 void readHeading(const FieldReader& reader, ObjectDefinition& definition) {
-  if (reader.text("format") != "inverse-foley-object") {
-    reader.fail("format", "is not \"inverse-foley-object\"", "this is not an object file");
-  }
-  if (const double version = reader.number("version", {0, 1e9}); version != 1) {
-    reader.fail("version", fmt::format("{:g} is not known to this program, only 1 is", version));
-  }
+  reader.expectFormat("inverse-foley-object", "this is not an object file");
   definition.name = reader.text("name");
   if (!isPlainName(definition.name)) {
     reader.fail("name", "must be at most 64 letters, digits, dots, dashes and underscores");

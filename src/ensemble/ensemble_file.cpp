@@ -62,12 +62,7 @@ Result<Ensemble> parseEnsemble(std::string_view json, const std::string& place) 
   std::optional<Error> error;
   const FieldReader reader(parsed, place, "", error);
   Ensemble ensemble;
-  if (reader.text("format") != kFormat) {
-    reader.fail("format", fmt::format("is not \"{}\"", kFormat), "this is not an ensemble");
-  }
-  if (reader.number("version", {0, 1e9}) != 1) {
-    reader.fail("version", "is not known to this program, only 1 is");
-  }
+  reader.expectFormat(kFormat, "this is not an ensemble");
   ensemble.program = reader.text("program", false);
   ensemble.sound = reader.text("sound", false);
   if (!staysInside(ensemble.sound)) reader.fail("sound", "leads out of the folder");

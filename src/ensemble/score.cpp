@@ -145,12 +145,7 @@ Result<Score> parseScore(std::string_view text, const std::filesystem::path& pat
   std::optional<Error> error;
   const FieldReader reader(json, file, "", error);
   Score score;
-  if (reader.text("format") != "inverse-foley-score") {
-    reader.fail("format", "is not \"inverse-foley-score\"", "this is not a score");
-  }
-  if (reader.number("version", {0, 1e9}) != 1) {
-    reader.fail("version", "is not known to this program, only 1 is");
-  }
+  reader.expectFormat("inverse-foley-score", "this is not a score");
   refuseOthers(reader, {"format", "version", "midi", "seed", "clearance", "parts"});
   score.midi = path.parent_path() / reader.text("midi");
   score.seed = static_cast<std::uint64_t>(wholeNumber(reader, "seed", 0, 1'000'000'000, 1));

@@ -78,13 +78,8 @@ EnergyOutlook EnergyOutlook::learn(const Body& body, const BodyModel& model,
                                    const RecorderSettings& recorder, int drops,
                                    const Progress& progress) {
   std::vector<std::vector<Sample>> samples(static_cast<std::size_t>(drops));
-  constexpr std::size_t kTold = 50;  // drops between two reports
-  for (std::size_t begin = 0; begin < samples.size() && !progress.stopRequested(); begin += kTold) {
-    progress("learn", static_cast<double>(begin) / drops);
-    parallelFor(std::min(kTold, samples.size() - begin), [&](std::size_t i) {
-      samples[begin + i] = samplesOfDrop(body, model, recorder, begin + i);
-    });
-  }
+  parallelFor(samples.size(), "learn", progress,
+              [&](std::size_t i) { samples[i] = samplesOfDrop(body, model, recorder, i); });
   using Normal = Eigen::Matrix<double, kFeatures, kFeatures>;
   Normal normal = 1e-6 * Normal::Identity();
   Features right = Features::Zero();

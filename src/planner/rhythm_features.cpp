@@ -118,13 +118,8 @@ std::vector<RhythmSample> rhythmsOfDrops(const Body& body, const SurfaceProperti
                                          const RestitutionSpan& span, int drops,
                                          const Progress& progress) {
   std::vector<std::optional<RhythmSample>> all(static_cast<std::size_t>(drops));
-  constexpr std::size_t kTold = 50;  // drops between two reports
-  for (std::size_t begin = 0; begin < all.size() && !progress.stopRequested(); begin += kTold) {
-    progress("learn", static_cast<double>(begin) / drops);
-    parallelFor(std::min(kTold, all.size() - begin), [&](std::size_t i) {
-      all[begin + i] = sampleOfDrop(body, surface, recorder, span, begin + i);
-    });
-  }
+  parallelFor(all.size(), "learn", progress,
+              [&](std::size_t i) { all[i] = sampleOfDrop(body, surface, recorder, span, i); });
   std::vector<RhythmSample> heard;
   for (const auto& sample : all) {
     if (sample) heard.push_back(*sample);

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstdint>
 #include <stdexcept>
+#include <string_view>
 #include <vector>
 
 #include "base/random.h"
@@ -47,6 +48,24 @@ TEST_F(ParallelFor, OfNothingCallsNothing) {
   bool called = false;
   parallelFor(0, [&](std::size_t) { called = true; });
   EXPECT_FALSE(called);
+}
+
+TEST_F(ParallelFor, TellsHowFarItIsAndIsStopped) {
+  std::atomic<bool> stop{false};
+  std::vector<double> shares;
+  const Progress progress{[&](std::string_view stage, double share) {
+                            EXPECT_EQ(stage, "drops");
+                            shares.push_back(share);
+                            stop = share > 0.3;
+                          },
+                          &stop};
+  std::vector<std::atomic<int>> visits(1000);
+  parallelFor(visits.size(), "drops", progress, [&](std::size_t i) { ++visits[i]; });
+  ASSERT_GT(shares.size(), 2);
+  EXPECT_EQ(shares.front(), 0);
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  EXPECT_EQ(visits.front(), 1);
+  EXPECT_EQ(visits.back(), 0);
 }
 
 TEST_F(ParallelFor, PassesAnExceptionToTheCaller) {
