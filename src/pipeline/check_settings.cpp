@@ -40,10 +40,6 @@ Result<void> checkSettings(const SynchronizeSettings& settings) {
     return usage("does not go with the planner graph, whose database holds one restitution", "fit",
                  "use --planner hybrid");
   }
-  if (!settings.positions.empty() && settings.planner == "graph") {
-    return usage("cannot be asked of the planner graph, which does not steer flights", "positions",
-                 "use --planner hybrid");
-  }
   return checkRange(settings.preRollSeconds, 0, 10, "pre-roll");
 }
 

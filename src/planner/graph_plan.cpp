@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "planner/orientation_wishes.h"
+#include "planner/position_wishes.h"
 
 namespace ifa {
 
@@ -21,6 +22,7 @@ class PlanMaker {
     for (int level = 0; level < path_.last(); ++level) follow(level);
     sumUp(plan_, log_);
     OrientationWishes(request_).settle(plan_);
+    PositionWishes(request_).settle(plan_);
     plan_.bendCap = largestBend();
     plan_.cut = cutOf(graph_.database().header().identity.settings);
     return std::move(plan_);

@@ -24,7 +24,7 @@ constexpr double kLiesOtherwise = 10;
 
 double GraphPath::total() const {
   double sum = sound.total();
-  for (const GraphEdge& edge : edges) sum += edge.weight.total();
+  for (const GraphEdge& edge : edges) sum += edge.weight.total() + edge.place;
   return sum;
 }
 
@@ -36,19 +36,52 @@ GraphSearch::GraphSearch(const PlanRequest& request, const GraphPlannerSettings&
       graph_(*request.graph),
       lookAhead_(request, connector.model()),
       wishes_(request),
+      places_(request),
       stop_(std::move(stop)) {
   const auto& events = request.signature.events;
   TransitionTarget second;
   second.heard = heardOf(events[1]);
   second.terminal = events.size() == 2 && request.signature.terminal;
-  const bool asked = wishes_.any(0) || wishes_.any(1);
+  const bool asked = wishes_.any(0) || wishes_.any(1) || places_.any(1);
   starts_ = graph_.bestStarts(events[1].time - events[0].time, heardOf(events[0]), second,
                               settings.starts * (asked ? kMoreStarts : 1));
   if (!asked) return;
   std::erase_if(starts_, [this](const PathStart& start) {
     return !lies(0, start.first) || !lies(1, start.second());
   });
+  if (places_.any(1)) {
+    const Standing first = standing({});
+    for (PathStart& start : starts_) start.total += placeOf(first, 1, start.first, start.first, 0);
+    std::stable_sort(starts_.begin(), starts_.end(),
+                     [](const PathStart& a, const PathStart& b) { return a.total > b.total; });
+  }
   if (starts_.size() > settings.starts) starts_.resize(settings.starts);
+}
+
+GraphSearch::Standing GraphSearch::standing(const GraphPath& path) {
+  Standing standing;
+  if (!places_.any()) return standing;
+  (void)places_.meet(0, Eigen::Vector2d::Zero(), standing.registered);
+  for (int level = 0; level < path.last(); ++level) {
+    const GraphEdge& edge = path.edges[static_cast<std::size_t>(level)];
+    standing.placement = standing.placement.after(
+        connector_.placement(path.event(level), edge.sibling, edge.symmetry));
+    const PlanarTransform& plane = standing.placement.plane;
+    (void)places_.meet(static_cast<std::size_t>(level) + 1, {plane.x, plane.y},
+                       standing.registered);
+  }
+  return standing;
+}
+
+/// Log f_p where the edge leads from `event`, which lies as `from` tells, to `level`.
+double GraphSearch::placeOf(const Standing& from, int level, std::uint32_t event,
+                            std::uint32_t sibling, std::uint32_t symmetry) {
+  const auto index = static_cast<std::size_t>(level);
+  if (!places_.any(index)) return 0;
+  const PlanarTransform plane =
+      from.placement.after(connector_.placement(event, sibling, symmetry)).plane;
+  Registered registered = from.registered;
+  return places_.meet(index, {plane.x, plane.y}, registered);
 }
 
 /// As is asked for there, if anything is.
@@ -98,14 +131,16 @@ bool GraphSearch::banned(const GraphPath& path, std::uint32_t sibling) const {
 const std::vector<GraphChild>& GraphSearch::children(const GraphPath& path) {
   const int level = path.last();
   const std::uint32_t event = path.event(level);
+  const bool placed = places_.any(static_cast<std::size_t>(level) + 1);
   const auto key = std::tuple(path.first, level, event);
   const auto bans = bans_.find({level, event});
   const std::size_t extra = bans == bans_.end() ? 0 : bans->second;
   const std::size_t wanted = std::min(settings_.children + extra, graph_.database().events());
-  const auto known = children_.find(key);
+  const auto known = placed ? children_.end() : children_.find(key);
   if (known != children_.end() && known->second.servesFor(wanted)) return known->second.found;
   ++queries_;
   stopped_ = stopped_ || stop_();
+  if (placed) return placed_ = find(path, wanted);
   if (children_.size() > kMostLists) children_.clear();
   return children_.insert_or_assign(key, Children{wanted, find(path, wanted)}).first->second.found;
 }
@@ -122,18 +157,23 @@ std::vector<GraphChild> GraphSearch::find(const GraphPath& path, std::size_t wan
   const bool ahead = level + 2 < levels() && settings_.lookAhead > 1;
   const bool asked = wishes_.any(static_cast<std::size_t>(level) + 1);
   const bool askedNext = ahead && wishes_.any(static_cast<std::size_t>(level) + 2);
+  const bool placed = places_.any(static_cast<std::size_t>(level) + 1);
+  const Standing here = placed ? standing(path) : Standing();
   const TransitionSource source{left.before, left.after};
   std::vector<GraphChild> found;
   // Where most cannot go on from there, more are looked at.
   std::size_t factor = ahead ? settings_.lookAhead : 1;
-  // Few events lead to rest, or to one that lies as asked: they must be looked for.
-  if ((level + 3 == levels() && request_.signature.terminal) || askedNext) factor *= factor;
+  // Few events lead to rest, to one that lies as asked, or to a place: they must be looked for.
+  const bool lastButOne = level + 3 == levels() && request_.signature.terminal;
+  if (lastButOne || askedNext || placed) factor *= factor;
   for (;; factor *= std::max<std::size_t>(2, settings_.lookAhead)) {
     const std::vector<Transition> edges = graph_.best(source, target, wanted * factor);
     found.clear();
     for (const Transition& edge : edges) {
       if (asked && !lies(level + 1, edge.event())) continue;
       GraphChild child{edge, 0, edge.total};
+      child.place = placeOf(here, level + 1, path.event(level), edge.sibling, edge.symmetry);
+      child.worth += child.place;
       if (ahead) lookAhead_.rate(level + 1, child);
       if (askedNext && !ownWayLies(level + 2, edge.event())) child.worth -= kLiesOtherwise;
       if (child.bound > graph_.settings().leastVelocity) found.push_back(child);
@@ -164,14 +204,16 @@ void GraphSearch::descend(GraphPath& path, int depth, double total) {
     if (followed == settings_.children) return;
     if (banned(path, next.sibling)) continue;
     ++followed;
-    if (total + next.total + (depth > 1 ? child.bound : 0) <= bestTotal_) continue;
-    path.edges.push_back({next.sibling, timeAfter(path), next.weight, next.symmetry});
-    descend(path, depth - 1, total + next.total);
+    const double reached = total + next.total + child.place;
+    if (reached + (depth > 1 ? child.bound : 0) <= bestTotal_) continue;
+    path.edges.push_back({next.sibling, timeAfter(path), next.weight, next.symmetry, child.place});
+    descend(path, depth - 1, reached);
     path.edges.pop_back();
   }
 }
 
 void GraphSearch::descendFromStarts(int depth) {
+  const Standing here = standing({});
   for (const PathStart& start : starts_) {
     if (start.total <= bestTotal_) return;
     if (usedStarts_.count(start.first) > 0) continue;
@@ -180,7 +222,8 @@ void GraphSearch::descendFromStarts(int depth) {
     path.firstAmplitude = graph_.event(start.first).amplitude;
     path.sound = start.sound;
     if (banned(path, start.first)) continue;
-    path.edges.push_back({start.first, timeAfter(path), start.weight});
+    path.edges.push_back({start.first, timeAfter(path), start.weight, 0,
+                          placeOf(here, 1, start.first, start.first, 0)});
     descend(path, depth - 1, start.total);
   }
 }

@@ -18,6 +18,7 @@
 #include "planner/orientation_wishes.h"
 #include "planner/path_connector.h"
 #include "planner/planner.h"
+#include "planner/position_wishes.h"
 
 namespace ifa {
 
@@ -27,6 +28,7 @@ struct GraphEdge {
   double time = 0;  ///< T*, s
   EdgeWeight weight;
   std::uint32_t symmetry = 0;  ///< Transition::symmetry
+  double place = 0;            ///< log f_p where it arrives
 };
 
 /// A walk through the graph that meets the signature's first events.
@@ -41,7 +43,7 @@ struct GraphPath {
   [[nodiscard]] std::uint32_t event(int level) const {
     return level == 0 ? first : edges[static_cast<std::size_t>(level) - 1].sibling + 1;
   }
-  /// Log of the product of all weights, and of the first event's sound.
+  /// Log of the product of all weights and f_p, and of the first event's sound.
   [[nodiscard]] double total() const;
 };
 
@@ -79,6 +81,12 @@ class GraphSearch {
     }
   };
 
+  /// Where a path's last event lies in the frame of its first.
+  struct Standing {
+    Placement placement;
+    Registered registered;
+  };
+
   [[nodiscard]] int levels() const;
   [[nodiscard]] bool spent() const;
   [[nodiscard]] std::optional<GraphPath> bestFrom(const GraphPath& kept, int depth);
@@ -90,6 +98,9 @@ class GraphSearch {
   [[nodiscard]] bool banned(const GraphPath& path, std::uint32_t sibling) const;
   [[nodiscard]] const std::vector<GraphChild>& children(const GraphPath& path);
   [[nodiscard]] std::vector<GraphChild> find(const GraphPath& path, std::size_t wanted);
+  [[nodiscard]] Standing standing(const GraphPath& path);
+  [[nodiscard]] double placeOf(const Standing& from, int level, std::uint32_t event,
+                               std::uint32_t sibling, std::uint32_t symmetry);
   [[nodiscard]] bool lies(int level, std::uint32_t event) const;
   [[nodiscard]] bool ownWayLies(int level, std::uint32_t event) const;
   [[nodiscard]] double timeAfter(const GraphPath& path) const;
@@ -103,6 +114,7 @@ class GraphSearch {
   const ContactGraph& graph_;
   LookAhead lookAhead_;
   OrientationWishes wishes_;
+  PositionWishes places_;
   std::function<bool()> stop_;
   std::vector<PathStart> starts_;
   std::set<std::uint32_t> usedStarts_;
@@ -110,6 +122,7 @@ class GraphSearch {
   std::set<Turn> noTurn_;
   std::map<std::tuple<int, std::uint32_t>, std::size_t> bans_;  ///< on the way out of an event
   std::map<std::tuple<std::uint32_t, int, std::uint32_t>, Children> children_;
+  std::vector<GraphChild> placed_;  ///< children whose worth depends on the way there
   std::optional<GraphPath> best_;
   double bestTotal_ = 0;
   GraphPath farthest_;

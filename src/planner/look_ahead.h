@@ -17,6 +17,7 @@ struct GraphChild {
   Transition transition;
   double bound = 0;  ///< log f_v of that edge is no more
   double worth = 0;  ///< total weight, and the weight of that edge as far as it can be guessed
+  double place = 0;  ///< log f_p where it leads, in `worth` too
 };
 
 /// Thread safe; request and graph must outlive it.

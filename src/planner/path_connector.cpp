@@ -77,6 +77,14 @@ void PathConnector::weigh(std::uint32_t from, std::uint32_t sibling, double time
   edge.logTimeWarp = logTimeWarp(time, edge.connection.time.flightTime, settings.affinity);
 }
 
+Placement PathConnector::placement(std::uint32_t from, std::uint32_t sibling,
+                                   std::uint32_t symmetry) {
+  const auto [j, k] = graph_.passage(sibling);
+  const SymmetryImage& image = graph_.image(symmetry);
+  const Registration registration = registerState(image.apply(j.after), event(from).after);
+  return {registration.transform.after(shiftTo(image.apply(k.before))), image};
+}
+
 ConnectedEdge PathConnector::make(std::uint32_t from, std::uint32_t sibling, std::uint32_t symmetry,
                                   double time) {
   ConnectedEdge edge;

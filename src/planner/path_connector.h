@@ -40,6 +40,10 @@ class PathConnector {
   /// Event `id` of the database, simulated again: in its own frame, from time 0, to the bit as its
   /// replay.
   [[nodiscard]] const ContactEvent& event(std::uint32_t id);
+  /// Lays the frame of sibling + 1, of its image under element `symmetry`, into that of event
+  /// `from`; for an edge that has a flight or not.
+  [[nodiscard]] Placement placement(std::uint32_t from, std::uint32_t sibling,
+                                    std::uint32_t symmetry);
   /// The edge from event `from` to the image of sibling + 1 under element `symmetry`, whose flight
   /// takes `time` seconds (T*).
   /// @param level  index of the signature's event that `from` meets: it fixes the time

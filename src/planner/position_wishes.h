@@ -22,6 +22,7 @@ class PositionWishes {
   explicit PositionWishes(const PlanRequest& request) : request_(request) {}
 
   [[nodiscard]] bool any() const { return !request_.positions.empty(); }
+  [[nodiscard]] bool any(std::size_t level) const { return wishFor(level) != nullptr; }
   /// Where contact `level` should begin, own frame; nothing where that does not matter.
   /// @param unsteered  where it would begin as things go
   [[nodiscard]] std::optional<Eigen::Vector2d> place(std::size_t level, const Registered& before,

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <complex>
 #include <set>
 
 #include "planner/graph_plan_cases.h"
@@ -30,6 +31,7 @@ class Oracle {
       path.firstAmplitude = graph_.event(start.first).amplitude;
       path.sound = start.sound;
       path.edges.push_back({start.first, timeAfter(path), start.weight});
+      path.edges.back().place = logPlace(path);
       follow(path);
     }
     std::stable_sort(paths_.begin(), paths_.end(),
@@ -75,6 +77,37 @@ class Oracle {
     return events[level + 1].time - events[level].time -
            connector_.event(path.event(path.last())).end;
   }
+  /// Where the path's events begin, in the plane as complex numbers.
+  [[nodiscard]] std::vector<std::complex<double>> placesOf(const GraphPath& path) {
+    std::vector<std::complex<double>> places = {0};
+    Placement placement;
+    for (int level = 0; level < path.last(); ++level) {
+      const GraphEdge& edge = path.edges[static_cast<std::size_t>(level)];
+      placement =
+          placement.after(connector_.placement(path.event(level), edge.sibling, edge.symmetry));
+      places.emplace_back(placement.plane.x, placement.plane.y);
+    }
+    return places;
+  }
+  /// Log f_p at the path's end: the plane is laid so that the first place asked for is met, and the
+  /// second lies the right way from it.
+  [[nodiscard]] double logPlace(const GraphPath& path) {
+    const auto& asked = request_.positions;
+    const auto end = static_cast<std::size_t>(path.last());
+    const auto at = [](const PlannedPosition& wish) {
+      return std::complex(wish.place.x(), wish.place.y());
+    };
+    for (std::size_t i = 1; i < asked.size(); ++i) {
+      if (asked[i].target != end) continue;
+      const auto places = placesOf(path);
+      const auto is = places[asked[1].target] - places[asked[0].target];
+      const auto should = at(asked[1]) - at(asked[0]);
+      const auto turn = should / std::abs(should) / (is / std::abs(is));
+      const auto off = at(asked[0]) + turn * (places[end] - places[asked[0].target]) - at(asked[i]);
+      return -7000 * std::norm(off);
+    }
+    return 0;
+  }
   void follow(GraphPath& path) {
     const auto next = static_cast<std::size_t>(path.last()) + 1;
     if (next == request_.signature.events.size()) return paths_.push_back(path);
@@ -84,6 +117,7 @@ class Oracle {
     for (const Transition& edge : graph_.bestByScan(
              {left.before, left.after}, target(next, time, path.firstAmplitude), kAll)) {
       path.edges.push_back({edge.sibling, time, edge.weight, edge.symmetry});
+      path.edges.back().place = logPlace(path);
       follow(path);
       path.edges.pop_back();
     }
@@ -266,6 +300,38 @@ TEST(GraphSearchTurns, ATurnThatFailsIsOnlyThatOne) {
     if (!found) continue;
     EXPECT_NEAR(found->total(), oracle.total(truth), 1e-9);
   }
+}
+
+/// The best of all paths by weight and places; and a flight ends where it was said to.
+TEST_P(GraphSearchOracle, PlacesAreWeighedAlong) {
+  GraphPlannerSettings ahead = GraphPlannerSettings::exhaustive();
+  ahead.lookAhead = 8;
+  int met = 0;
+  for (const ContactSignature& signature : signaturesOf(graph_, 4, 4, false, 71, {0.01, 0.3})) {
+    PlanRequest asked = request(signature);
+    asked.positions = {{met > 1 ? 1U : 0U, {0.3, -0.1}}, {2, {0.34, -0.1}}, {3, {0.36, -0.08}}};
+    PathConnector connector(asked);
+    Oracle oracle(asked, connector);
+    const std::size_t truth = oracle.firstFeasible();
+    for (const GraphPlannerSettings& how : {GraphPlannerSettings::exhaustive(), ahead}) {
+      const auto found = GraphSearch(asked, how, connector, never).next();
+      ASSERT_EQ(found.has_value(), truth < oracle.paths());
+      if (!found) continue;
+      ++met;
+      EXPECT_NEAR(found->total(), oracle.total(truth), 1e-9);
+      for (int level = 0; level < found->last(); ++level) {
+        const GraphEdge& step = found->edges[static_cast<std::size_t>(level)];
+        const std::uint32_t from = found->event(level);
+        const PlanarTransform& made =
+            connector.edge(level, from, step.sibling, step.symmetry, step.time).placement.plane;
+        const PlanarTransform said = connector.placement(from, step.sibling, step.symmetry).plane;
+        EXPECT_NEAR(made.x, said.x, 1e-12);
+        EXPECT_NEAR(made.y, said.y, 1e-12);
+        EXPECT_NEAR(made.halfSine, said.halfSine, 1e-12);
+      }
+    }
+  }
+  EXPECT_GE(met, 4);
 }
 
 INSTANTIATE_TEST_SUITE_P(
