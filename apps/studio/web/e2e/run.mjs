@@ -209,7 +209,7 @@ async function landing(page) {
   });
   assert.notEqual(await asked(), wish);
   assert.match(await page.getAttribute('#landing', 'aria-label'), /from where it first touches, asked for$/);
-  assert.equal(await page.evaluate(() => document.activeElement.id), 'landing');
+  await page.waitForFunction(() => document.activeElement.id === 'landing');
   await reloaded(page);
   assert.notEqual(await text(), 'anywhere');
   await animate(page, () => page.click('#landing-clear'));

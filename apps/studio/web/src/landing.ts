@@ -25,6 +25,8 @@ const grip = button('landing');
 /** While it is moved: where to, m from the first contact. */
 let moving: Place | null = null;
 let timer = 0;
+/** Whether keys moved it when the takes before were dropped: so they may go on. */
+let focused = false;
 
 whenChanged(['takes', 'choice'], show);
 
@@ -55,7 +57,10 @@ function show(): void {
   $('landing-text').textContent = wish ? `${lengthText(wish)} from its start` : 'anywhere';
   $('landing-off').textContent = off && Math.hypot(...off) > kWorthTelling ? `This take misses that by ${lengthText(off)}.` : '';
   grip.setAttribute('aria-label', place ? `Landing place, ${lengthText(place)} from where it first touches${wish ? ', asked for' : ''}` : 'Landing place');
-  if (!chosenTake()?.scene) grip.hidden = true;
+  if (!chosenTake()?.scene) {
+    focused ||= document.activeElement === grip;
+    grip.hidden = true;
+  }
   for (const take of current.takes) {
     const start = startOf(take);
     if (start) take.scene?.setLanding(start, wish && sum(start, wish));
@@ -69,6 +74,8 @@ export function placeGrip(): string {
   const place = shown();
   grip.hidden = !scene || !start || !place;
   if (!scene || !start || !place) return '';
+  if (focused && document.activeElement === document.body) grip.focus({preventScroll: true});
+  focused = false;
   // On the side of the ring that is nearest, so that it does not cover the body.
   const [rx, ry] = scene.rightwards();
   const near: Place = [ry * scene.ringRadius, -rx * scene.ringRadius];
