@@ -228,8 +228,10 @@ void addSearchOptions(CLI::App& command, SyncOptions& options) {
   command.add_option("--orient", options.orientations,
                      "CONTACT:FACE=up|down, as last:6=up; CONTACT a number from 1 or last, FACE of "
                      "the object file or x,y,z of the mesh; a direction x,y,z for up; repeatable");
-  command.add_option("--positions", options.positions,
-                     "file with places in the plane: contact, x and y in metres, tabs between");
+  command.add_option(
+      "--positions", options.positions,
+      "file with places in the plane: contact (a number or last), x and y in metres, tabs "
+      "between");
   addGraphOptions(command, settings.graph);
 }
 

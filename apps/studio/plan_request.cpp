@@ -38,6 +38,20 @@ Answer<std::vector<Label>> parseMarks(const Json* list) {
   return marks;
 }
 
+using Landing = std::optional<std::array<double, 2>>;
+
+Answer<Landing> parseLanding(const Json* landing, std::size_t contacts) {
+  if (landing == nullptr) return Landing();
+  if (!landing->is_object()) return refuse(422, "landing is no place");
+  if (contacts < 2) return refuse(422, "landing needs a contact before it");
+  JsonFields fields(*landing, "landing: ");
+  const std::array<double, 2> place = {fields.number("x", NAN, -kMaxLanding, kMaxLanding),
+                                       fields.number("y", NAN, -kMaxLanding, kMaxLanding)};
+  if (!fields.problem().empty()) return refuse(422, fields.problem());
+  if (std::isnan(place[0]) || std::isnan(place[1])) return refuse(422, "landing needs x and y");
+  return place;
+}
+
 }  // namespace
 
 Answer<PlanRequest> parsePlanRequest(std::string_view text,
@@ -57,26 +71,33 @@ Answer<PlanRequest> parsePlanRequest(std::string_view text,
   request.face = fields.choice("face", entry.faces, true);
   request.terminal = fields.flag("terminal", request.terminal);
   request.fit = fields.flag("fit", request.fit);
-  request.takes = static_cast<int>(fields.number("takes", request.takes, 1, 6));
+  request.takes = static_cast<int>(fields.number("takes", request.takes, 1, kMaxTakes));
   request.seed = static_cast<std::int64_t>(fields.number("seed", 1, 0, 9007199254740992.0));
   request.timeLimit = fields.number("timeLimit", request.timeLimit, 1, 60);
   if (!fields.problem().empty()) return refuse(422, fields.problem());
+  const auto landing = parseLanding(fields.find("landing"), request.marks.size());
+  if (!landing) return tl::unexpected(landing.error());
+  request.landing = *landing;
   request.marks.back().text = request.terminal ? "terminal" : "non-terminal";
   return request;
 }
 
 std::string marksTable(const PlanRequest& request) { return formatCsv(request.marks); }
 
-std::vector<std::string> syncArguments(const PlanRequest& request,
-                                       const std::filesystem::path& sound,
-                                       const std::filesystem::path& marks,
+std::string placesTable(const PlanRequest& request) {
+  if (!request.landing) return {};
+  const auto& [x, y] = *request.landing;
+  return fmt::format("1\t0\t0\nlast\t{}\t{}\n", x, y);
+}
+
+std::vector<std::string> syncArguments(const PlanRequest& request, const PlanFiles& files,
                                        const std::filesystem::path& output) {
   std::vector<std::string> words = {
       "sync",
-      sound.string(),
+      files.sound.string(),
       "--json-progress",
       "--labels",
-      marks.string(),
+      files.marks.string(),
       "--object",
       request.objectFile.empty() ? request.object : request.objectFile.string(),
       "--takes",
@@ -94,6 +115,7 @@ std::vector<std::string> syncArguments(const PlanRequest& request,
   };
   if (!request.surface.empty()) add("--surface", request.surface);
   if (!request.face.empty()) add("--orient", "last:" + request.face + "=up");
+  if (request.landing) add("--positions", files.places.string());
   if (request.fit) words.emplace_back("--fit");
   return words;
 }

@@ -42,9 +42,9 @@ class Studio {
   void stop();
 
  private:
-  class Routes;
-  Studio(std::unique_ptr<Routes> routes);
-  std::unique_ptr<Routes> routes_;
+  class Server;
+  explicit Studio(std::unique_ptr<Server> server);
+  std::unique_ptr<Server> server_;
 };
 
 }  // namespace ifa::studio

@@ -49,7 +49,7 @@ struct OrientationWish {
 
 /// Where the centre of mass is to be, seen from above, when a contact begins (IFA section 6).
 struct PositionWish {
-  int contact = 1;                                  ///< from 1
+  int contact = 1;                                  ///< from 1; 0: the last
   Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< m
 };
 

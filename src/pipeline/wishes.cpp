@@ -68,11 +68,14 @@ Result<std::vector<PlannedPosition>> plannedPositions(std::vector<PositionWish> 
                                                       const ContactSignature& signature) {
   constexpr const char* kPlaceOfWish = "positions";
   constexpr double kFarthest = 1000;  // m
+  const std::size_t contacts = signature.events.size();
+  for (PositionWish& wish : wishes) {
+    if (wish.contact == 0) wish.contact = static_cast<int>(contacts);
+  }
   std::stable_sort(wishes.begin(), wishes.end(), [](const PositionWish& a, const PositionWish& b) {
     return a.contact < b.contact;
   });
   std::vector<PlannedPosition> planned;
-  const std::size_t contacts = signature.events.size();
   for (const PositionWish& wish : wishes) {
     if (wish.contact < 1 || static_cast<std::size_t>(wish.contact) > contacts) {
       return notThere(wish.contact, contacts, kPlaceOfWish);
@@ -95,23 +98,31 @@ Result<std::vector<PlannedPosition>> plannedPositions(std::vector<PositionWish> 
 
 namespace {
 
+/// From 1; "last" is 0.
+std::optional<int> contactOf(std::string_view text) {
+  constexpr double kMostContacts = 1e6;
+  if (text == "last") return 0;
+  const auto number = numberOf(text);
+  if (!number || *number != std::floor(*number) || *number < 1 || *number > kMostContacts) {
+    return {};
+  }
+  return static_cast<int>(*number);
+}
+
 /// "3<TAB>0.12<TAB>-0.05"
 std::optional<PositionWish> parsePosition(std::string_view line) {
-  std::vector<double> numbers;
+  std::vector<std::string_view> fields;
   for (;;) {
     const std::size_t tab = line.find('\t');
-    const auto number = numberOf(trimmed(line.substr(0, tab)));
-    if (!number || !std::isfinite(*number)) return {};
-    numbers.push_back(*number);
+    fields.push_back(trimmed(line.substr(0, tab)));
     if (tab == std::string_view::npos) break;
     line.remove_prefix(tab + 1);
   }
-  constexpr double kMostContacts = 1e6;
-  if (numbers.size() != 3 || numbers[0] != std::floor(numbers[0]) || numbers[0] < 1 ||
-      numbers[0] > kMostContacts) {
-    return {};
-  }
-  return PositionWish{static_cast<int>(numbers[0]), {numbers[1], numbers[2]}};
+  if (fields.size() != 3) return {};
+  const auto contact = contactOf(fields[0]);
+  const auto x = numberOf(fields[1]), y = numberOf(fields[2]);
+  if (!contact || !x || !y || !std::isfinite(*x) || !std::isfinite(*y)) return {};
+  return PositionWish{*contact, {*x, *y}};
 }
 
 }  // namespace
@@ -129,7 +140,7 @@ Result<std::vector<PositionWish>> readPositions(const std::filesystem::path& pat
     const auto wish = parsePosition(line);
     if (!wish) {
       return badInput("is no place", fmt::format("{}:{}", path.string(), number),
-                      "give a contact's number, x and y in metres, tabs between");
+                      "give a contact's number or last, x and y in metres, tabs between");
     }
     wishes.push_back(*wish);
   }

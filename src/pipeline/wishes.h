@@ -19,8 +19,8 @@ namespace ifa {
     const std::vector<OrientationWish>& wishes, const Body& body,
     const ContactSignature& signature);
 
-/// A line for each: number of the contact from 1, x and y in metres, tabs between. Lines that begin
-/// with # say nothing. Errors: kBadInput with the line; at most 1 MiB.
+/// A line for each: number of the contact from 1 or `last`, x and y in metres, tabs between. Lines
+/// that begin with # say nothing. Errors: kBadInput with the line; at most 1 MiB.
 [[nodiscard]] Result<std::vector<PositionWish>> readPositions(const std::filesystem::path& path);
 
 /// In order of their contacts. Errors: kUsage for a contact that the sound does not have, or that

@@ -44,16 +44,34 @@ const PlannedPosition* PositionWishes::wishFor(std::size_t level) const {
   return found == request_.positions.end() ? nullptr : &*found;
 }
 
+double PositionWishes::share(const PlannedPosition& wish, std::size_t level,
+                             double duration) const {
+  const auto& events = request_.signature.events;
+  const double later = events[wish.target].time - events[level].time;
+  const double part = duration / std::max(duration + later, 1e-9);
+  const bool stops = request_.signature.terminal && wish.target + 1 == events.size();
+  // At rest at the wish, its mean speed is half of what it is at first.
+  return stops ? 1 - (1 - part) * (1 - part) : part;
+}
+
 std::optional<Vector2d> PositionWishes::place(std::size_t level, const Registered& before,
-                                              const Vector2d& unsteered) const {
-  const PlannedPosition* wish = any() ? wishFor(level) : nullptr;
-  if (wish == nullptr || before.places == 0) return {};
-  if (before.places > 1) return undo(before.plane, wish->place);
-  // Only how far it is from the first matters: which way, the registration makes good.
-  const Vector2d way = unsteered - before.first;
-  if (way.norm() < 1e-9) return {};
-  const double length = (wish->place - request_.positions[0].place).norm();
-  return before.first + way.normalized() * length;
+                                              const LevelFlight& flight) const {
+  const auto& positions = request_.positions;
+  const auto wish =
+      std::find_if(positions.begin(), positions.end(),
+                   [level](const PlannedPosition& one) { return one.target >= level; });
+  if (before.places == 0 || wish == positions.end()) return {};
+  Vector2d goal;
+  if (before.places > 1) {
+    goal = undo(before.plane, wish->place);
+  } else {
+    // Only how far it is from the first matters: which way, the registration makes good.
+    const Vector2d way = flight.to - before.first;
+    if (way.norm() < 1e-9) return {};
+    goal = before.first + way.normalized() * (wish->place - positions[0].place).norm();
+  }
+  if (wish->target == level) return goal;
+  return flight.from + share(*wish, level, flight.duration) * (goal - flight.from);
 }
 
 double PositionWishes::meet(std::size_t level, const Vector2d& position,

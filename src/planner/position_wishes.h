@@ -17,16 +17,23 @@ struct Registered {
   PlanarTransform plane;                            ///< own frame to that of the wishes
 };
 
+/// A flight seen from above, as things go, own frame.
+struct LevelFlight {
+  Eigen::Vector2d from = Eigen::Vector2d::Zero();  ///< m
+  Eigen::Vector2d to = Eigen::Vector2d::Zero();    ///< m
+  double duration = 0;                             ///< s
+};
+
 class PositionWishes {
  public:
   explicit PositionWishes(const PlanRequest& request) : request_(request) {}
 
   [[nodiscard]] bool any() const { return !request_.positions.empty(); }
   [[nodiscard]] bool any(std::size_t level) const { return wishFor(level) != nullptr; }
-  /// Where contact `level` should begin, own frame; nothing where that does not matter.
-  /// @param unsteered  where it would begin as things go
+  /// Where contact `level` should begin, own frame; nothing where that does not matter. On the way
+  /// to a wish of a later contact, as far along as a body comes that slows down evenly.
   [[nodiscard]] std::optional<Eigen::Vector2d> place(std::size_t level, const Registered& before,
-                                                     const Eigen::Vector2d& unsteered) const;
+                                                     const LevelFlight& flight) const;
   /// A contact at `position` (own frame) that meets target `level`: logarithm of f_p, and what is
   /// known of the registration then.
   [[nodiscard]] double meet(std::size_t level, const Eigen::Vector2d& position,
@@ -35,7 +42,10 @@ class PositionWishes {
   void settle(Plan& plan) const;
 
  private:
+  /// Of that contact.
   [[nodiscard]] const PlannedPosition* wishFor(std::size_t level) const;
+  /// How much of the way that is left to the wish the flight to `level` should go.
+  [[nodiscard]] double share(const PlannedPosition& wish, std::size_t level, double duration) const;
 
   const PlanRequest& request_;
 };

@@ -65,17 +65,19 @@ auto ShootingWorker::wayTo(const ShootingNode& node, int level, double time) con
   return way;
 }
 
-/// Horizontal velocity that takes a flight towards the place that target `level` asks for, nothing
-/// where none is: as far that way as costs least in f_v and f_p together, times `eager`.
+/// Horizontal velocity that takes a flight towards the place that target `level` or a later one
+/// asks for, nothing where none does: as far that way as costs least in f_v and f_p together, times
+/// `eager`.
 std::optional<Eigen::Vector2d> ShootingWorker::steeredTo(const ShootingNode& node, int level,
                                                          const PlausibleRegion& region,
                                                          double duration, double eager) const {
   const Eigen::Vector2d as = node.event.after.velocity.head<2>();
-  const Eigen::Vector2d unsteered = node.event.after.position.head<2>() + duration * as;
+  const Eigen::Vector2d from = node.event.after.position.head<2>();
+  const LevelFlight flight = {from, from + duration * as, duration};
   const auto place =
-      problem_.places.place(static_cast<std::size_t>(level), node.registered, unsteered);
+      problem_.places.place(static_cast<std::size_t>(level), node.registered, flight);
   if (!place) return {};
-  const Eigen::Vector2d off = *place - unsteered;
+  const Eigen::Vector2d off = *place - flight.to;
   const Eigen::Vector3d change(off.x() / duration, off.y() / duration, 0);
   const double bend = region.bend(change, Eigen::Vector3d::Zero());
   const double bent = bend * bend, missed = -logPositionWish(off.norm());

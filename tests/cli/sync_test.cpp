@@ -207,6 +207,19 @@ TEST_F(Sync, PutsTheBodyWhereItIsAskedFor) {
   EXPECT_EQ(runProgram({"verify", folder_ / "out/motion.json"}).exit, 0);
 }
 
+// From the first contact to the last, whatever its number.
+TEST_F(Sync, PutsTheLastContactWhereItIsAskedFor) {
+  writeText(folder_ / "places.tsv", "1\t0\t0\nlast\t0.06\t-0.08\n");
+  const auto result = runProgram(command("out", {"--positions", folder_ / "places.tsv"}));
+  ASSERT_EQ(result.exit, 0) << result.err;
+  const auto made = motion("out");
+  const auto& contacts = made.at("contacts");
+  EXPECT_EQ(made.at("positions")[1].at("contact"), contacts.size() - 1);
+  const auto position = contacts.back().at("position");
+  EXPECT_NEAR(position[0].get<double>(), 0.06, 0.01);
+  EXPECT_NEAR(position[1].get<double>(), -0.08, 0.01);
+}
+
 TEST_F(Sync, RefusesPlacesThatAreNone) {
   const std::vector<std::tuple<std::string, int, std::string>> all = {
       {"1\t0.5\n", 3, ":1"},
@@ -214,8 +227,10 @@ TEST_F(Sync, RefusesPlacesThatAreNone) {
       {"1.5\t0\t0\n", 3, ":1"},
       {"1\t0\t0\n2\tx\t0\n", 3, ":2"},
       {"1\t0\tnan\n", 3, ":1"},
+      {"first\t0\t0\n", 3, ":1"},
       {"99\t0\t0\n", 2, "contact 99"},
       {"1\t0\t0\n1\t1\t0\n", 2, "two places"},
+      {"last\t0\t0\nlast\t1\t0\n", 2, "two places"},
       {"1\t1e6\t0\n", 2, "metres"}};
   for (const auto& [text, exit, told] : all) {
     writeText(folder_ / "places.tsv", text);

@@ -27,20 +27,51 @@ TEST(PositionWishesTest, RegisterByTheFirstTwoPlaces) {
   request.positions = {{0, {1, 1}}, {2, {1, 3}}, {3, {2, 3}}};
   const PositionWishes wishes(request);
   Registered registered;
-  EXPECT_FALSE(wishes.place(0, registered, {0.3, 0.4}));
+  EXPECT_FALSE(wishes.place(0, registered, {{0, 0}, {0.3, 0.4}, 0.1}));
   EXPECT_EQ(wishes.meet(0, {0.3, 0.4}, registered), 0);
-  EXPECT_FALSE(wishes.place(1, registered, {9, 9}));  // nobody asked
   EXPECT_EQ(wishes.meet(1, {9, 9}, registered), 0);
   // Two metres from the first, whichever way it goes; 10 cm too far costs 70.
-  const auto second = wishes.place(2, registered, {1.3, 0.4});
+  const auto second = wishes.place(2, registered, {{0, 0}, {1.3, 0.4}, 0.1});
   ASSERT_TRUE(second);
   EXPECT_TRUE(second->isApprox(Vector2d(2.3, 0.4), 1e-12));
   EXPECT_NEAR(wishes.meet(2, {2.4, 0.4}, registered), -7000 * 0.01, 1e-6);
   // What is along x in the motion's frame is along y in the plane, so (2, 3) is to the right of it.
-  const auto third = wishes.place(3, registered, {0, 0});
+  const auto third = wishes.place(3, registered, {{0, 0}, {0, 0}, 0.1});
   ASSERT_TRUE(third);
   EXPECT_TRUE(third->isApprox(Vector2d(2.3, -0.6), 1e-12)) << third->transpose();
   EXPECT_NEAR(wishes.meet(3, {2.3, -0.6}, registered), 0, 1e-9);
+}
+
+// Where only a later contact has a place, a flight goes its part of the way there.
+TEST(PositionWishesTest, AreApproachedFromAfar) {
+  PlanRequest request = test::requestFor(test::die());
+  request.signature = test::clicks(
+      {{0, 0, 1, 0, 1}, {0.2, 0, 0.8, 0, 1}, {0.3, 0, 0.6, 0, 1}, {0.4, 0, 0.5, 0, 1}}, true);
+  request.positions = {{0, {0, 0}}, {3, {0, 1}}};
+  const PositionWishes wishes(request);
+  Registered registered;
+  EXPECT_EQ(wishes.meet(0, {2, 0}, registered), 0);
+  const LevelFlight flight = {{2, 0}, {2.1, 0}, 0.2};
+  const auto resting = wishes.place(1, registered, flight);  // half of the time
+  ASSERT_TRUE(resting);
+  EXPECT_TRUE(resting->isApprox(Vector2d(2.75, 0), 1e-12)) << resting->transpose();
+  request.signature.terminal = false;
+  const auto passing = wishes.place(1, registered, flight);
+  ASSERT_TRUE(passing);
+  EXPECT_TRUE(passing->isApprox(Vector2d(2.5, 0), 1e-12)) << passing->transpose();
+}
+
+TEST(PositionWishesTest, OfTheLastContactIsReached) {
+  PlanRequest request = test::requestFor(test::die());
+  request.signature = test::clicks(
+      {{0, 0, 1, 0, 1}, {0.25, 0, 0.8, 0, 1}, {0.45, 0, 0.6, 0, 1}, {0.5, 0, 0.4, 0, 1}}, false);
+  for (const double way : {0.1, 0.25, 0.6}) {
+    request.positions = {{0, {0, 0}}, {3, {way, 0}}};
+    const Plan plan = planOf(request);
+    ASSERT_TRUE(plan.solved) << plan.failure;
+    EXPECT_NEAR(placeOf(plan.contacts[3]).x(), way, 0.015);
+    EXPECT_GT(plan.score, 0.8);
+  }
 }
 
 TEST(PositionWishesTest, AreWhereAnotherMotionWas) {

@@ -38,14 +38,16 @@ inline std::size_t residentBytes() {
 
 class StudioTest : public testing::Test {
  protected:
+  StudioTest() {
+    limits_.headTime = std::chrono::milliseconds(700);
+    limits_.lingerTime = std::chrono::milliseconds(300);
+  }
   void SetUp() override {
     StudioSettings settings;
     settings.folder = folder_ / "studio";
     settings.program = IFA_PROGRAM;
-    settings.pages = {{"/", {"<!doctype html>", "text/html"}},
-                      {"/assets/a.js", {"1", "text/javascript"}}};
-    settings.limits.headTime = std::chrono::milliseconds(700);
-    settings.limits.lingerTime = std::chrono::milliseconds(300);
+    settings.pages = pages_;
+    settings.limits = limits_;
     auto opened = Studio::open(std::move(settings));
     ASSERT_TRUE(opened) << opened.error().text();
     studio_ = std::move(*opened);
@@ -87,6 +89,9 @@ class StudioTest : public testing::Test {
     return answer ? nlohmann::json::parse(answer->body) : nlohmann::json();
   }
 
+  ConnectionLimits limits_;
+  Pages pages_ = {{"/", {"<!doctype html>", "text/html"}},
+                  {"/assets/a.js", {"1", "text/javascript"}}};
   test::TemporaryFolder folder_;
   std::unique_ptr<Studio> studio_;
   std::thread thread_;

@@ -128,6 +128,40 @@ TEST_F(StudioTest, ASlowClientIsGivenUp) {
   EXPECT_TRUE(answers());
 }
 
+class SlowClientTest : public StudioTest {
+ protected:
+  SlowClientTest() {
+    limits_.bodyTime = std::chrono::milliseconds(800);
+    limits_.writeTime = std::chrono::milliseconds(500);
+    pages_["/assets/large.js"] = {std::string(kLarge, ' '), "text/javascript"};
+  }
+  /// More than a connection holds that nobody reads.
+  static constexpr std::size_t kLarge = 32U << 20;
+};
+
+TEST_F(SlowClientTest, WhoSendsABodyByBytesIsGivenUp) {
+  const auto before = files();
+  RawClient raw(port());
+  raw.send(head("POST /api/sounds",
+                "Content-Type: application/octet-stream\r\nContent-Length: 100000\r\n"));
+  const auto start = std::chrono::steady_clock::now();
+  while (std::chrono::steady_clock::now() - start < std::chrono::seconds(20)) {
+    if (!raw.send("X")) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(15));
+  EXPECT_TRUE(answers());
+  EXPECT_EQ(files(), before);
+}
+
+TEST_F(SlowClientTest, WhoDoesNotReadTheAnswerIsGivenUp) {
+  RawClient raw(port());
+  raw.send(head("GET /assets/large.js"));
+  std::this_thread::sleep_for(std::chrono::milliseconds(2500));
+  EXPECT_LT(raw.receive({}, 20).size(), kLarge);
+  EXPECT_TRUE(answers());
+}
+
 TEST_F(StudioTest, GarbageIsNoRequest) {
   for (const std::string& bytes :
        {std::string(), std::string(1, '\0'), std::string("\r\n\r\n"), std::string("GET\r\n\r\n"),
@@ -150,14 +184,34 @@ TEST_F(StudioTest, GarbageIsNoRequest) {
   EXPECT_TRUE(answers());
 }
 
+/// A WAV file with that format (1: whole numbers, 3: floating point) and these bytes as samples.
+std::string wav(std::size_t format, std::size_t channels, std::size_t rate, std::size_t bits,
+                const std::string& data) {
+  const auto number = [](std::size_t value, int bytes) {
+    std::string text;
+    for (int i = 0; i < bytes; ++i) text += static_cast<char>(value >> (8 * i) & 0xff);
+    return text;
+  };
+  const std::size_t frame = channels * bits / 8;
+  return "RIFF" + number(36 + data.size(), 4) + "WAVEfmt " + number(16, 4) + number(format, 2) +
+         number(channels, 2) + number(rate, 4) + number(rate * frame, 4) + number(frame, 2) +
+         number(bits, 2) + "data" + number(data.size(), 4) + data;
+}
+
 TEST_F(StudioTest, SoundsThatAreNoneLeaveNothing) {
   const auto before = files();
   std::string cut = clicks().substr(0, 60);
   for (const std::string& bytes :
        {std::string("nonsense"), std::string(), std::string(1000, '\xff'), cut,
         std::string("RIFF\xff\xff\xff\xffWAVEfmt \xff\xff\xff\xff", 20),
-        std::string("OggS") + std::string(100, '\0'),
-        std::string("fLaC") + std::string(100, '\1')}) {
+        std::string("OggS") + std::string(100, '\0'), std::string("fLaC") + std::string(100, '\1'),
+        wav(3, 1, 44100, 32, std::string(40000, '\xff')),  // none of its samples is a number
+        wav(1, 1, 44100, 16, std::string(80000, '\0')),    // silence
+        wav(1, 1, 44100, 16, ""), wav(1, 0, 44100, 16, std::string(1000, '\1')),
+        wav(1, 60000, 44100, 16, std::string(200000, '\1')),
+        wav(1, 1, 0, 16, std::string(1000, '\1')),
+        wav(1, 1, 2000000000, 8, std::string(1000, '\1')),
+        wav(1, 1, 1, 8, std::string(100000, '\1'))}) {
     const auto answer = client().Post("/api/sounds", bytes, kBytes);
     ASSERT_TRUE(answer);
     EXPECT_EQ(answer->status, 422) << answer->body;
@@ -206,6 +260,16 @@ TEST_F(StudioTest, ASessionComesBack) {
   EXPECT_EQ(again["state"], Json::parse(state));
   EXPECT_EQ(again["heard"], opened["heard"]);
   EXPECT_EQ(client().Get((path + "/sound.wav").c_str())->body.substr(0, 4), "RIFF");
+}
+
+// Good JSON, which what writes it again would not survive.
+TEST_F(StudioTest, AStateThatNestsWithoutEndIsRefused) {
+  const std::string path = "/api/sessions/" + openSound()["session"].get<std::string>();
+  const std::string deep = std::string(500000, '[') + std::string(500000, ']');
+  EXPECT_EQ(client().Put((path + "/state").c_str(), deep, kJson)->status, 422);
+  const auto session = client().Get(path.c_str());
+  ASSERT_TRUE(session);
+  EXPECT_TRUE(Json::parse(session->body)["state"].is_null());
 }
 
 TEST_F(StudioTest, ReadsLabelsAsTheProgramDoes) {

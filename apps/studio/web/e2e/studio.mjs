@@ -34,6 +34,7 @@ export async function withStudio(program, use, options = {}) {
   });
   try {
     const context = await browser.newContext({viewport: {width: 1280, height: 720}, acceptDownloads: true, ...options});
+    context.setDefaultTimeout(90000); // of machines that do other work too
     await use({page: await context.newPage(), context, studio, folder});
   } finally {
     await browser.close();
@@ -45,7 +46,7 @@ export async function withStudio(program, use, options = {}) {
 /** Opens a sound as a person would by the button. */
 export async function openSound(page, sound) {
   await page.setInputFiles('#sound-file', sound);
-  await page.waitForSelector('.mark', {timeout: 15000});
+  await page.waitForSelector('.mark', {timeout: 60000});
 }
 
 export async function chooseObject(page, words) {

@@ -53,6 +53,8 @@ export interface PlanRequest {
   object: string;
   surface: string;
   face: string;
+  /** Of the last contact, m from the first. */
+  landing: {x: number; y: number} | null;
   fit: boolean;
   takes: number;
   seed: number;
@@ -97,8 +99,6 @@ const json = (body: unknown): RequestInit => ({
 export const takeFile = (session: string, plan: number, take: number, file: string): string =>
   `/api/sessions/${session}/plans/${plan}/takes/${take}/${file}`;
 
-export const soundFile = (session: string): string => `/api/sessions/${session}/sound.wav`;
-
 export async function objects(): Promise<CatalogueObject[]> {
   return (await ask('/api/objects')).json() as Promise<CatalogueObject[]>;
 }
@@ -110,6 +110,11 @@ export async function sendSound(file: Blob, name: string): Promise<Session> {
   const headers = {'Content-Type': 'application/octet-stream'};
   const path = `/api/sounds?name=${encodeURIComponent(name.slice(0, 100))}`;
   return (await ask(path, {method: 'POST', headers, body: file})).json() as Promise<Session>;
+}
+
+/** The sound as it was heard, a WAV file. */
+export async function sound(id: string): Promise<ArrayBuffer> {
+  return (await ask(`/api/sessions/${id}/sound.wav`)).arrayBuffer();
 }
 
 export async function session(id: string): Promise<Session> {
@@ -151,6 +156,11 @@ export async function readLabels(text: string): Promise<{marks: {start: number; 
 
 export async function motion(id: string, plan: number, take: number): Promise<Motion> {
   return (await ask(takeFile(id, plan, take, 'motion.json'))).json() as Promise<Motion>;
+}
+
+/** The same as GLB. */
+export async function animation(id: string, plan: number, take: number): Promise<ArrayBuffer> {
+  return (await ask(takeFile(id, plan, take, 'motion.glb'))).arrayBuffer();
 }
 
 export type Tell = (event: string, data: Record<string, unknown>) => void;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the studio's server works at for this page, with its progress shown.
 import type {Tell} from './api';
+import {changed} from './current';
 import {$, tellError} from './dom';
 
 const kStages: Record<string, string> = {
@@ -21,11 +22,8 @@ function showProgress(event: string, data: Record<string, unknown>): void {
 }
 
 /** One job at a time. */
-export class CurrentJob {
+class CurrentJob {
   private controller: AbortController | null = null;
-
-  /** @param changed is called when one begins or ends */
-  constructor(private readonly changed: () => void) {}
 
   get runs(): boolean {
     return this.controller !== null;
@@ -43,7 +41,7 @@ export class CurrentJob {
     $('stage-name').textContent = 'Starting';
     $('progress').querySelector('progress')!.value = 0;
     $('progress').hidden = false;
-    this.changed();
+    changed('job');
     try {
       return await work(own.signal, showProgress);
     } catch (error) {
@@ -54,7 +52,9 @@ export class CurrentJob {
         this.controller = null;
         $('progress').hidden = true;
       }
-      this.changed();
+      changed('job');
     }
   }
 }
+
+export const job = new CurrentJob();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The library of objects as pictures to choose from.
 import type {CatalogueObject} from './api';
+import {$, input} from './dom';
 
 const pictures = import.meta.glob<string>('../../../../docs/objects/*.png', {query: '?url', import: 'default', eager: true});
 
@@ -9,9 +10,14 @@ export function pictureOf(name: string): string {
   return found ? `url("${found[1]}")` : 'none';
 }
 
+export function openObjects(): void {
+  $<HTMLDialogElement>('objects').showModal();
+  $('object-search').focus();
+}
+
 /** Fills the grid of the dialog; `choose` gets the name. */
-export function fillGrid(grid: HTMLElement, search: HTMLInputElement, objects: readonly CatalogueObject[],
-                         choose: (name: string) => void): void {
+export function fillGrid(objects: readonly CatalogueObject[], choose: (name: string) => void): void {
+  const search = input('object-search');
   const buttons = objects.map((object) => {
     const button = document.createElement('button');
     const picture = document.createElement('span');
@@ -25,7 +31,7 @@ export function fillGrid(grid: HTMLElement, search: HTMLInputElement, objects: r
     button.addEventListener('click', () => choose(object.name));
     return button;
   });
-  grid.replaceChildren(...buttons);
+  $('object-grid').replaceChildren(...buttons);
   search.addEventListener('input', () => {
     const words = search.value.toLowerCase();
     objects.forEach((object, i) => {

@@ -11,6 +11,8 @@ export interface Saved {
   own: OwnObject | null;
   surface: string;
   face: string;
+  /** Of the last contact in the plane, m from the first; null: anywhere. */
+  landing: [number, number] | null;
   fit: boolean;
   takes: number;
   seed: number;
@@ -19,8 +21,8 @@ export interface Saved {
 }
 
 export function emptySaved(): Saved {
-  return {version: 1, marking: {marks: [], terminal: true}, object: '', own: null, surface: '', face: '', fit: false,
-          takes: 3, seed: 1, plan: null, take: 1};
+  return {version: 1, marking: {marks: [], terminal: true}, object: '', own: null, surface: '', face: '', landing: null,
+          fit: false, takes: 3, seed: 1, plan: null, take: 1};
 }
 
 type Fields = Record<string, unknown>;
@@ -29,6 +31,14 @@ const isNumber = (value: unknown): value is number => typeof value === 'number' 
 
 function isMark(value: unknown): value is Mark {
   return isObject(value) && ['id', 'start', 'end', 'confidence'].every((name) => isNumber(value[name]));
+}
+
+/** Farthest landing along each axis that the studio takes, m. */
+export const kMaxLanding = 100;
+
+function isLanding(value: unknown): boolean {
+  return value === null || (Array.isArray(value) && value.length === 2 &&
+    value.every((one) => isNumber(one) && Math.abs(one) <= kMaxLanding));
 }
 
 const areMarks = (value: unknown): value is Mark[] => Array.isArray(value) && value.every(isMark);
@@ -45,8 +55,8 @@ export function readSaved(value: unknown): Saved | null {
   const good = areMarks(marks) && typeof terminal === 'boolean' && isPlan(value['plan']) && typeof value['fit'] === 'boolean' &&
     ['object', 'surface', 'face'].every((name) => typeof value[name] === 'string') &&
     ['takes', 'seed', 'take'].every((name) => isNumber(value[name]));
-  const own = value['own'] ?? null; // there was none in earlier versions
-  return good && (own === null || isOwnObject(own)) ? ({...value, own} as unknown as Saved) : null;
+  const {own = null, landing = null} = value; // there were none in earlier versions
+  return good && (own === null || isOwnObject(own)) && isLanding(landing) ? ({...value, own, landing} as unknown as Saved) : null;
 }
 
 /** A session in one file: its sound and all that was done. Takes are planned anew from it, and are the same. */

@@ -5,6 +5,7 @@ import * as THREE from 'three';
 import {GLTFLoader} from 'three/addons/loaders/GLTFLoader.js';
 import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
 import type {Motion} from './api';
+import type {Place} from './place';
 
 export interface ContactSpot {
   position: [number, number, number];
@@ -70,6 +71,9 @@ export class TakeScene {
   private readonly floor: THREE.Mesh<THREE.CircleGeometry, THREE.ShadowMaterial>;
   private readonly grid: THREE.GridHelper;
   private readonly spots = new THREE.Group();
+  private readonly landing = new THREE.Group();
+  private readonly ring: THREE.Mesh<THREE.RingGeometry, THREE.MeshBasicMaterial>;
+  private readonly way: THREE.Line<THREE.BufferGeometry, THREE.LineDashedMaterial>;
   /** Seconds of the animation at second 0 of the sound: `ifa sync` may put silence before it. */
   readonly shift: number;
 
@@ -96,8 +100,15 @@ export class TakeScene {
     this.floor.receiveShadow = true;
     this.grid = new THREE.GridHelper(160 * this.radius, 80);
     this.grid.position.y = 1e-3 * this.radius;
+    const marking = {transparent: true, opacity: 0.9, depthWrite: false, fog: false};
+    this.ring = new THREE.Mesh(new THREE.RingGeometry(this.ringRadius - 0.1 * this.radius, this.ringRadius, 64), new THREE.MeshBasicMaterial(marking));
+    this.ring.rotation.x = -Math.PI / 2;
+    this.way = new THREE.Line(new THREE.BufferGeometry(), new THREE.LineDashedMaterial({...marking, dashSize: 0.3 * this.radius, gapSize: 0.2 * this.radius}));
+    this.way.frustumCulled = false;
+    this.landing.add(this.ring, this.way);
+    this.landing.visible = false;
     this.setLight(shadowPixels);
-    this.scene.add(this.body, this.floor, this.grid, this.spots, this.light, this.light.target, this.sky);
+    this.scene.add(this.body, this.floor, this.grid, this.spots, this.landing, this.light, this.light.target, this.sky);
     this.addPath(motion);
     this.aimCamera();
     this.setTime(0);
@@ -170,7 +181,9 @@ export class TakeScene {
     return normal ? [normal.x, -normal.z, normal.y] : null;
   }
 
-  setTheme(ground: string, line: string): void {
+  setTheme(ground: string, line: string, accent: string): void {
+    this.ring.material.color.set(accent);
+    this.way.material.color.set(accent);
     this.scene.background = new THREE.Color(ground);
     (this.scene.fog as THREE.Fog).color.set(ground);
     const material = this.grid.material as THREE.LineBasicMaterial;
@@ -209,6 +222,52 @@ export class TakeScene {
 
   get target(): THREE.Vector3 {
     return this.looking;
+  }
+
+  /** From where it is looked at, as seen from what is looked at. */
+  view(): THREE.Vector3 {
+    return this.camera.position.clone().sub(this.looking);
+  }
+
+  lookFrom(view: THREE.Vector3): void {
+    this.camera.position.copy(this.looking).add(view);
+    this.camera.lookAt(this.looking);
+  }
+
+  /** The floor seen at that place of the picture (-1 to 1 each way), m; null at and above the horizon. */
+  floorAt(x: number, y: number): Place | null {
+    const ray = new THREE.Raycaster();
+    ray.setFromCamera(new THREE.Vector2(x, y), this.camera);
+    const hit = ray.ray.intersectPlane(new THREE.Plane(new THREE.Vector3(0, 1, 0)), new THREE.Vector3());
+    return hit && [hit.x, -hit.z];
+  }
+
+  /** Where the floor's `place` is seen, -1 to 1 each way where it is in the picture; null behind who looks. */
+  seenAt([x, y]: Place): [number, number] | null {
+    const point = new THREE.Vector3(x, 0, -y).project(this.camera);
+    return point.z < 1 ? [point.x, point.y] : null;
+  }
+
+  /** The way along the floor, of length 1, that goes to the right in the picture. */
+  rightwards(): Place {
+    const {x, z} = new THREE.Vector3().setFromMatrixColumn(this.camera.matrixWorld, 0);
+    const length = Math.hypot(x, z);
+    return [x / length, -z / length];
+  }
+
+  /** Of the ring around the place to land at, m. */
+  get ringRadius(): number {
+    return 1.25 * this.radius;
+  }
+
+  /** A ring around the place to land at, and the way to it. @param place null: none */
+  setLanding(start: Place, place: Place | null): void {
+    this.landing.visible = place !== null;
+    if (!place) return;
+    const at = ([x, y]: Place): THREE.Vector3 => new THREE.Vector3(x, 5e-3 * this.radius, -y);
+    this.ring.position.copy(at(place));
+    this.way.geometry.setFromPoints([at(start), at(place)]);
+    this.way.computeLineDistances();
   }
 
   /** Height of the body's lowest vertex over the floor, m: for measuring. */
@@ -277,6 +336,15 @@ export class Stage {
     return new TakeScene(gltf, motion, firstContact, this.software ? 512 : 1024);
   }
 
+  /** For the camera of the large view. */
+  controlsOf(take: TakeScene): OrbitControls {
+    const controls = new OrbitControls(take.camera, this.large);
+    controls.target.copy(take.target);
+    controls.enablePan = false;
+    controls.maxPolarAngle = 1.54;
+    return controls;
+  }
+
   /** @param still nothing moves: a sharp picture may take its time */
   drawLarge(take: TakeScene, still: boolean): void {
     const {large, renderer} = this;
@@ -323,4 +391,4 @@ export class Stage {
   }
 }
 
-export {OrbitControls};
+export type {OrbitControls};

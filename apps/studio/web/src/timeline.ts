@@ -8,6 +8,7 @@ const kRuler = 18; // px
 const kWaveShare = 0.46; // of the height above the ruler
 const kShortestView = 0.02; // s
 const kLowest = 100; // Hz, of the spectrogram
+const kFinger = 22; // px, half of what a finger covers
 
 export interface TimelineActions {
   choose(id: number | null): void;
@@ -16,6 +17,12 @@ export interface TimelineActions {
   add(time: number): void;
   seek(time: number): void;
   hover(id: number | null, x: number, y: number): void;
+}
+
+/** Of a mark that a motion meets. */
+export interface Look {
+  tone: string;
+  note: string;
 }
 
 type Rgb = [number, number, number];
@@ -34,12 +41,14 @@ export class Timeline {
   private wave: Waveform | null = null;
   private marking: Marking = {marks: [], terminal: true};
   private chosen: number | null = null;
-  private tones = new Map<number, string>();
+  private looks: ReadonlyMap<number, Look> = new Map();
   private from = 0;
   private to = 1;
   private width = 1;
   private height = 1;
   private drawAsked = false;
+  /** The pointer that scrubs or drags. */
+  private held: {pointer: PointerEvent; stop: () => void} | null = null;
 
   constructor(private readonly track: HTMLElement, private readonly actions: TimelineActions) {
     this.canvas = track.querySelector('canvas')!;
@@ -56,7 +65,9 @@ export class Timeline {
     this.layer.addEventListener('pointermove', (event) => {
       this.actions.hover(this.markOf(event.target), event.clientX, event.clientY);
     });
-    this.layer.addEventListener('pointerout', () => this.actions.hover(null, 0, 0));
+    this.layer.addEventListener('pointerout', (event) => {
+      if (event.pointerType !== 'touch') this.actions.hover(null, 0, 0);
+    });
     this.layer.addEventListener('focusin', (event) => this.actions.choose(this.markOf(event.target)));
   }
 
@@ -67,11 +78,10 @@ export class Timeline {
     this.measure();
   }
 
-  /** @param tones a colour for each mark that has one of its own */
-  setMarks(marking: Marking, chosen: number | null, tones: Map<number, string>): void {
+  setMarks(marking: Marking, chosen: number | null, looks: ReadonlyMap<number, Look>): void {
     this.marking = marking;
     this.chosen = chosen;
-    this.tones = tones;
+    this.looks = looks;
     this.placeMarks();
   }
 
@@ -142,33 +152,83 @@ export class Timeline {
     }
   }
 
+  /** The mark that a finger means: the nearest number, as far as a finger is wide. */
+  private markUnderFinger(event: PointerEvent): number | null {
+    const box = this.track.getBoundingClientRect();
+    const onEnd = (event.target as HTMLElement).classList.contains('handle');
+    if (onEnd || event.clientY - box.top > kWaveShare * box.height) return this.markOf(event.target);
+    const off = (mark: Mark): number => Math.abs(this.xOf(mark.start) - (event.clientX - box.left - this.track.clientLeft));
+    const nearest = [...this.marking.marks].sort((a, b) => off(a) - off(b))[0];
+    return nearest && off(nearest) <= kFinger ? nearest.id : this.markOf(event.target);
+  }
+
+  /** Follows a pointer until it goes up or `stop` is called, which it returns. */
+  private follow(pointer: PointerEvent, move: (event: PointerEvent) => void): () => void {
+    this.track.setPointerCapture(pointer.pointerId);
+    const own = (event: PointerEvent): void => {
+      if (event.pointerId === pointer.pointerId) move(event);
+    };
+    const up = (event: PointerEvent): void => {
+      if (event.pointerId === pointer.pointerId) stop();
+    };
+    const stop = (): void => {
+      this.track.removeEventListener('pointermove', own);
+      for (const name of ['pointerup', 'pointercancel'] as const) this.track.removeEventListener(name, up);
+      if (this.held?.stop === stop) this.held = null;
+    };
+    this.track.addEventListener('pointermove', own);
+    for (const name of ['pointerup', 'pointercancel'] as const) this.track.addEventListener(name, up);
+    return stop;
+  }
+
+  /** Two fingers: the moments under them stay under them. */
+  private pinch(a: PointerEvent, b: PointerEvent): void {
+    const middle = (this.timeAt(a.clientX) + this.timeAt(b.clientX)) / 2;
+    const length = this.to - this.from;
+    const apart = (x: number, y: number): number => Math.max(kFinger, Math.abs(x - y));
+    const at = {a: a.clientX, b: b.clientX};
+    const show = (): void => {
+      this.zoom((length * apart(a.clientX, b.clientX)) / apart(at.a, at.b) / (this.to - this.from));
+      const left = this.track.getBoundingClientRect().left + this.track.clientLeft;
+      this.setView(middle - this.reach((at.a + at.b) / 2 - left));
+    };
+    this.follow(a, (event) => (at.a = event.clientX, show()));
+    this.follow(b, (event) => (at.b = event.clientX, show()));
+  }
+
   private pointerDown(event: PointerEvent): void {
     if (event.button !== 0 || !this.wave) return;
-    const id = this.markOf(event.target);
-    const onHandle = (event.target as HTMLElement).classList.contains('handle');
-    this.track.setPointerCapture(event.pointerId);
-    const mark = this.marking.marks.find((one) => one.id === id);
-    const grip = mark ? this.timeAt(event.clientX) - (onHandle ? mark.end : mark.start) : 0;
-    if (id !== null) this.handles.get(id)?.focus({preventScroll: true});
-    else this.actions.choose(null);
-    let travelled = false;
-    const move = (moved: PointerEvent): void => {
-      travelled ||= Math.abs(moved.clientX - event.clientX) > 2;
-      const time = this.timeAt(moved.clientX);
-      if (id === null) this.actions.seek(time);
-      else if (travelled && onHandle) this.actions.end(id, time - grip);
-      else if (travelled) this.actions.move(id, time - grip, moved.altKey);
-    };
-    const up = (): void => {
-      this.track.removeEventListener('pointermove', move);
-      this.track.removeEventListener('pointerup', up);
-      this.track.removeEventListener('pointercancel', up);
-    };
-    this.track.addEventListener('pointermove', move);
-    this.track.addEventListener('pointerup', up);
-    this.track.addEventListener('pointercancel', up);
-    if (id === null) this.actions.seek(this.timeAt(event.clientX));
     event.preventDefault();
+    const touch = event.pointerType === 'touch';
+    if (touch && this.held) {
+      const {pointer, stop} = this.held;
+      stop();
+      return this.pinch(pointer, event);
+    }
+    const id = touch ? this.markUnderFinger(event) : this.markOf(event.target);
+    const stop = id === null ? this.scrub(event) : this.drag(event, id);
+    this.held = {pointer: event, stop};
+    this.actions.hover(touch ? id : null, event.clientX, event.clientY); // a finger does not hover
+  }
+
+  private scrub(event: PointerEvent): () => void {
+    this.actions.choose(null);
+    this.actions.seek(this.timeAt(event.clientX));
+    return this.follow(event, (moved) => this.actions.seek(this.timeAt(moved.clientX)));
+  }
+
+  private drag(event: PointerEvent, id: number): () => void {
+    const onEnd = (event.target as HTMLElement).classList.contains('handle');
+    const mark = this.marking.marks.find((one) => one.id === id);
+    const grip = mark ? this.timeAt(event.clientX) - (onEnd ? mark.end : mark.start) : 0;
+    this.handles.get(id)?.focus({preventScroll: true});
+    let travelled = false;
+    return this.follow(event, (moved) => {
+      travelled ||= Math.abs(moved.clientX - event.clientX) > 2;
+      const time = this.timeAt(moved.clientX) - grip;
+      if (travelled && onEnd) this.actions.end(id, time);
+      else if (travelled) this.actions.move(id, time, moved.altKey);
+    });
   }
 
   private measure(): void {
@@ -217,7 +277,7 @@ export class Timeline {
       handle.classList.toggle('crowded', x - lastX < 18);
       lastX = x;
       handle.style.setProperty('--sure', (0.3 + 0.7 * mark.confidence).toFixed(2));
-      const tone = this.tones.get(mark.id);
+      const tone = this.looks.get(mark.id)?.tone;
       if (tone) handle.style.setProperty('--tone', tone);
       else handle.style.removeProperty('--tone');
       this.describe(handle, mark, i, last);
@@ -256,6 +316,7 @@ export class Timeline {
     handle.setAttribute('aria-valuemin', '0');
     handle.setAttribute('aria-valuemax', (this.wave?.duration ?? 0).toFixed(3));
     handle.setAttribute('aria-valuenow', mark.start.toFixed(4));
+    handle.setAttribute('aria-description', this.looks.get(mark.id)?.note ?? '');
     handle.setAttribute('aria-valuetext', `${mark.start.toFixed(3)} s${until}${sure}${rests}`);
   }
 
