@@ -45,8 +45,8 @@ struct ShootingPlannerSettings {
   /// Contacts before one that a pass did not get past, in which the next passes follow so many
   /// times the beam for so many contacts as they would go on by themselves, and what a rhythm that
   /// fits is worth in rank.
-  int hardContacts = 5, hardBeam = 6, hardAhead = 4;
-  double hardWeight = 0.5;
+  int hardContacts = 5, hardBeam = 6, hardAhead = 6;
+  double hardWeight = 1.5;
   /// Further takes are looked for among motions that go so many times as many ways as are missing.
   std::size_t waysPerTake = 2;
   int outlookDrops = 1000;  ///< drops from which the energy outlook is learnt
