@@ -35,7 +35,7 @@ struct ShootingPlannerSettings {
   /// Where the motion flies there too, silence is tried only if unchanged it misses by less; 10 %
   /// of the gap is 1.
   double silentReach = 2.5;
-  double restitutionRange = 0.2;  ///< relative, inside continuous and last events
+  double restitutionRange = 0.2;  ///< share by which a contact may be livelier or deader
   double dropPenalty = 6;         ///< log units for an event of weight 1 that was dropped
   int passes = 10;                ///< searches with other seeds and wider beams, at most
   double widest = 2.5;            ///< no pass is wider than so many times the first
@@ -45,8 +45,8 @@ struct ShootingPlannerSettings {
   /// Contacts before one that a pass did not get past, in which the next passes follow so many
   /// times the beam for so many contacts as they would go on by themselves, and what a rhythm that
   /// fits is worth in rank.
-  int hardContacts = 5, hardBeam = 6, hardAhead = 4;
-  double hardWeight = 0.5;
+  int hardContacts = 5, hardBeam = 6, hardAhead = 6;
+  double hardWeight = 1.5;
   /// Further takes are looked for among motions that go so many times as many ways as are missing.
   std::size_t waysPerTake = 2;
   int outlookDrops = 1000;  ///< drops from which the energy outlook is learnt

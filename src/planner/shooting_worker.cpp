@@ -18,6 +18,8 @@ constexpr double kLongestDrop = 10;  // s
 /// Decision: in a region that is marked as one sound, contacts so far apart are one event. It is
 /// what the paper closes for bodies that rattle; people mark even fainter chatter as one, s.
 constexpr double kRegionGap = 0.03;
+/// A restitution under this may be off by as much as this one: a share of little is nothing.
+constexpr double kLively = 0.5;
 /// Ways to end one event that are followed up.
 constexpr std::size_t kMostEndings = 3;
 
@@ -70,13 +72,12 @@ double ShootingWorker::droppedBetween(int from, int to) const {
   return penalty;
 }
 
-double ShootingWorker::variedRestitution(int level, int attempt, RandomStream& random) const {
+/// No two places of a body and a floor are alike: every other attempt has a restitution of its own.
+double ShootingWorker::variedRestitution(int attempt, RandomStream& random) const {
   const double nominal = problem_.model.surface.restitution;
-  const auto& target = problem_.targets[static_cast<std::size_t>(level)];
-  const bool last = level + 1 == static_cast<int>(problem_.targets.size());
-  if ((target.duration <= 0 && !last) || attempt % 2 == 0) return nominal;
-  const double range = problem_.settings.restitutionRange;
-  return std::min(0.95, nominal * (1 + range * random.uniform(-1, 1)));
+  if (attempt % 2 == 0) return nominal;
+  const double range = problem_.settings.restitutionRange * std::max(nominal, kLively);
+  return std::clamp(nominal + range * random.uniform(-1, 1), 0.0, kMostRestitution);
 }
 
 void ShootingWorker::expand(const ShootingNode& node, int index, int level, double effort,
@@ -131,7 +132,7 @@ void ShootingWorker::expandTo(const ShootingNode& node, ShootingNode child, cons
       const double spread = set.spread * (0.25 + 0.75 * i / count);
       for (int axis = 0; axis < 6; ++axis) wish[axis] = spread * bellShaped(random);
     }
-    const double restitution = variedRestitution(level, i, random);
+    const double restitution = variedRestitution(i, random);
     const double eager = i == 0 || !steered ? 1 : random.uniform(0.5, 1.5);
     shoot(node, child, region, wish, duration, eager, restitution, bound);
   }
@@ -218,7 +219,7 @@ void ShootingWorker::shootSilently(const ShootingNode& node, const ShootingNode&
     edge.arrival = next->silentContact ? Arrival::kSilentContact : Arrival::kFlight;
     edge.duration = next->delay;
     const RigidState arrival = next->state;
-    arrive(node, child, edge, arrival, variedRestitution(child.level, attempt++, random), bound);
+    arrive(node, child, edge, arrival, variedRestitution(attempt++, random), bound);
   };
   findOnTime(probe, found, {probes, problem_.settings.silentTries, problem_.settings.spread},
              random);

@@ -90,7 +90,7 @@ class ShootingWorker {
   [[nodiscard]] HeardEvent heardOf(const ContactEvent& event, double firstAmplitude) const;
   [[nodiscard]] double mergeGapOf(std::size_t level) const;
   [[nodiscard]] double droppedBetween(int from, int to) const;
-  [[nodiscard]] double variedRestitution(int level, int attempt, RandomStream& random) const;
+  [[nodiscard]] double variedRestitution(int attempt, RandomStream& random) const;
   [[nodiscard]] PlausibleRegion regionOf(const ContactEvent& event) const;
 
   const ShootingProblem& problem_;

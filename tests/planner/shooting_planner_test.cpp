@@ -115,6 +115,27 @@ TEST(ShootingPlannerTest, SolvesWhatWasHeardOfDrops) {
   EXPECT_GE(solved, 3);
 }
 
+TEST(ShootingPlannerTest, ContactsAreALittleLivelierOrDeaderAndPayForIt) {
+  PlanRequest request = test::requestFor(test::die());
+  for (const double nominal : {0.2, 0.8}) {
+    request.surface.restitution = nominal;
+    const double most = std::max(0.1, 0.2 * nominal);
+    int clicks = 0;
+    for (const ContactSignature& signature : test::signatures(test::die(), 3, 5, 12)) {
+      request.signature = signature;
+      const Plan plan = plansOf(request)[0];
+      for (const PlannedContact& contact : plan.contacts) {
+        const double off = std::abs(contact.restitution - nominal);
+        EXPECT_LE(off, most);
+        EXPECT_GE(contact.bend, off / (1 + nominal) / 0.4 * (1 - 1e-12));
+        clicks += off > 0 && contact.event.end < test::die().definition.mergeGap &&
+                  !contact.event.terminal;
+      }
+    }
+    EXPECT_GT(clicks, 0) << nominal;
+  }
+}
+
 TEST(ShootingPlannerTest, SilentContactAlsoEndsInTime) {
   const Body cup = loadObject("CoffeeCup").value();
   PlanRequest request = test::requestFor(cup);
