@@ -30,14 +30,19 @@ class DatabaseCommand : public testing::Test {
     return all;
   }
   [[nodiscard]] std::string at(const std::string& name) const { return (folder_ / name).string(); }
-  [[nodiscard]] std::string whole() const {
+  [[nodiscard]] std::string whole() {
+    const auto start = std::chrono::steady_clock::now();
     EXPECT_EQ(runProgram(build("whole")).exit, 0);
+    wholeTook_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return readText(folder_ / "whole");
   }
-  /// Builds to the end in many lives of random length; tells how many of them were cut short.
-  int buildInManyLives(const std::string& name, RandomStream& random, double longest) const {
+  /// Builds to the end, after whole(), in many lives of random length; tells how many of them were
+  /// cut short. However slow this build of the program is, some are long enough for a piece of the
+  /// work.
+  int buildInManyLives(const std::string& name, RandomStream& random) const {
     for (int kills = 0;; ++kills) {
-      const auto life = runAndKill(build(name, {"--resume"}), random.uniform(0, longest));
+      const double seconds = random.uniform(0, std::max(0.25, wholeTook_));
+      const auto life = runAndKill(build(name, {"--resume"}), seconds);
       if (life.exit == 0) return kills;
       EXPECT_EQ(life.exit, -1) << life.err;
       if (life.exit != -1 || kills > 1000) return kills;
@@ -45,6 +50,7 @@ class DatabaseCommand : public testing::Test {
   }
 
   std::string count_ = "500";
+  double wholeTook_ = 0;  // s
   TemporaryFolder folder_;
 };
 
@@ -88,11 +94,8 @@ TEST_F(DatabaseCommand, ShardsMergeToTheFileOfOneBuild) {
 TEST_F(DatabaseCommand, AKilledBuildGoesOn) {
   RandomStream random(5, 0);
   count_ = "2000";
-  const auto start = std::chrono::steady_clock::now();
   const std::string expected = whole();
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-  // A life must be long enough for a piece of the work, however slow this build of the program is.
-  (void)buildInManyLives("d", random, std::max(0.3, took.count()));
+  (void)buildInManyLives("d", random);
   EXPECT_EQ(readText(folder_ / "d"), expected);
   EXPECT_THAT(folder_.names(), ElementsAre("d", "whole"));
 }
@@ -103,7 +106,7 @@ TEST_F(DatabaseCommand, SlowAHundredKillsLoseNothing) {
   const std::string expected = whole();
   for (int kills = 0, builds = 0; kills < 100; ++builds) {
     const std::string name = "d" + std::to_string(builds);
-    kills += buildInManyLives(name, random, 0.25);
+    kills += buildInManyLives(name, random);
     ASSERT_EQ(readText(folder_ / name), expected) << name;
     ASSERT_FALSE(fs::exists(folder_ / (name + ".part")));
     fs::remove(folder_ / name);
