@@ -59,7 +59,8 @@ const std::vector<Route>& routes() {
 bool leads(const Route& route, const Exchange& exchange) {
   const auto& path = exchange.path();
   // HEAD asks for the head of what GET gives.
-  const std::string_view method = exchange.method() == "HEAD" ? "GET" : exchange.method();
+  const std::string_view asked = exchange.method();
+  const std::string_view method = asked == "HEAD" ? "GET" : asked;
   return route.method == method &&
          std::equal(path.begin(), path.end(), route.pattern.begin(), route.pattern.end(),
                     [](const std::string& part, std::string_view wanted) {
