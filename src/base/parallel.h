@@ -6,7 +6,7 @@
 #include <functional>
 #include <string_view>
 
-#include "ifa/progress.h"
+#include "base/progress.h"
 
 namespace ifa {
 
