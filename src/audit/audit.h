@@ -18,6 +18,7 @@ struct AuditSettings {
   double flightAngle = 1e-5;            ///< likewise, rad
   double flightVelocity = 1e-4;         ///< likewise, m/s
   double angularMomentum = 1e-6;        ///< relative change over a flight
+  double timeWarp = 0.3;                ///< |retiming - 1|, or of its inverse (IFA 5.3.2)
   double frictionMargin = 0.02;         ///< share by which an impulse may leave the friction cone
   double energyRounding = 1e-6;         ///< relative; what counts as no gain of energy
   double audibleShare = kAudibleShare;  ///< threshold of hearing as a share of J_ref (method, 2);

@@ -82,7 +82,7 @@ AuditCheck unlisted(const Evidence& all) {
     // The paper's cut clips the resting contact; "rest pose" sees that nothing moves in it.
     if (step.kind == StepKind::kRest && all.motion.cut == EventCut::kPaper) continue;
     if (all.sample(step.from).time < all.contact(0).time) continue;
-    worst.see(all.excess(step.impulse, step.duration), all.sample(step.from).time);
+    worst.see(all.excess(step.impulse, step.simulated), all.sample(step.from).time);
   }
   return worst.check("unlisted contacts", "N s", all.threshold);
 }

@@ -42,8 +42,10 @@ AuditCheck silentEnergy(const Evidence& all) {
       lowest = std::numeric_limits<double>::infinity();
       continue;
     }
-    lowest = std::min(lowest, all.energy(all.sample(step.from)));
-    worst.see(all.energy(all.sample(step.from + 1)) - lowest, all.sample(step.from + 1).time);
+    const double retiming = all.retiming(step.contact);
+    lowest = std::min(lowest, all.energy(all.sample(step.from), retiming));
+    worst.see(all.energy(all.sample(step.from + 1), retiming) - lowest,
+              all.sample(step.from + 1).time);
   }
   return worst.check("silent energy", "J gained", all.mass * kGravity * all.depth);
 }

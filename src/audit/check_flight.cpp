@@ -13,7 +13,7 @@ constexpr double kSlowest = 1e-3;  // rad/s; under it angular momentum has no di
 
 bool mustFly(const Step& step) {
   const bool free = step.kind == StepKind::kSilent || step.kind == StepKind::kAfter;
-  return step.kind == StepKind::kFlight || (free && step.duration > kLongestContactStep);
+  return step.kind == StepKind::kFlight || (free && step.simulated > kLongestContactStep);
 }
 
 double relativeChange(const Eigen::Vector3d& before, const Eigen::Vector3d& after, double floor) {
@@ -23,7 +23,10 @@ double relativeChange(const Eigen::Vector3d& before, const Eigen::Vector3d& afte
 }  // namespace
 
 void checkFlight(const Evidence& all, Checks& checks) {
-  Worst position, angle, velocity, momentum;
+  Worst position, angle, velocity, momentum, warp;
+  for (const MotionContact& contact : all.motion.contacts) {
+    warp.see(std::max(contact.retiming, 1 / contact.retiming) - 1, contact.time);
+  }
   const Eigen::Matrix3d& inertia = all.body.inertia;
   const double floor = kSlowest * inertia.trace() / 3;
   for (const Step& step : all.steps) {
@@ -43,6 +46,7 @@ void checkFlight(const Evidence& all, Checks& checks) {
   checks.push_back(angle.check("flight angle", "rad", all.settings.flightAngle));
   checks.push_back(velocity.check("flight velocity", "m/s", all.settings.flightVelocity));
   checks.push_back(momentum.check("angular momentum", "", all.settings.angularMomentum));
+  checks.push_back(warp.check("time warp", "share", all.settings.timeWarp));
 }
 
 void checkGround(const Evidence& all, Checks& checks) {

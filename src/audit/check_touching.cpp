@@ -71,7 +71,9 @@ double displacement(const Evidence& all, const Step& step) {
                                        step.duration * to.velocity);
   const double turned = distanceFromWay(turn(from, to), step.duration * from.angularVelocity,
                                         step.duration * to.angularVelocity);
-  const MotionSample flown = flyFreely(from, step.duration, kGravity, all.body.inertia);
+  const double played = step.simulated > 0 ? step.simulated / step.duration : 1;
+  const MotionSample flown =
+      flyFreely(from, step.duration, kGravity * played * played, all.body.inertia);
   return std::min(moved + all.body.radius * turned, poseDifference(all, flown, to));
 }
 
@@ -80,7 +82,7 @@ AuditCheck motionInContact(const Evidence& all) {
   Worst worst;
   for (const Step& step : all.steps) {
     if (step.kind == StepKind::kFlight || step.kind == StepKind::kRest) continue;
-    if (step.duration < kSameTime || step.duration > kBin + 1e-6) continue;
+    if (step.duration < kSameTime || step.simulated > kBin + 1e-6) continue;
     worst.see(displacement(all, step), all.sample(step.from).time);
   }
   return worst.check("motion in contact", "m", kRoundedStep * all.depth);

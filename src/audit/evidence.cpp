@@ -47,12 +47,13 @@ Step makeStep(const Evidence& all, std::size_t from) {
   step.contact = contactOf(all.motion, a, b);
   step.kind = kindOf(all, step.contact, a, b);
   step.duration = b.time - a.time;
-  // A retimed flight is played slower or faster than simulated; an event's first and last sample
-  // belong to such flights with one side each.
-  double before = 1, after = 1, simulated = step.duration;
-  if (step.kind == StepKind::kFlight) {
+  // A retimed passage is played slower or faster than simulated; an event's first and last sample
+  // belong to such passages with one side each.
+  double before = 1, after = 1;
+  step.simulated = step.duration;
+  if (step.kind == StepKind::kFlight || step.kind == StepKind::kSilent) {
     before = after = all.retiming(step.contact);
-    simulated /= before;
+    step.simulated /= before;
   } else if (step.kind == StepKind::kEvent) {
     const MotionContact& contact = all.contact(step.contact);
     if (std::abs(a.time - contact.time) < kSameTime && isFirstAt(all.motion, from)) {
@@ -63,7 +64,7 @@ Step makeStep(const Evidence& all, std::size_t from) {
     }
   }
   step.impulse = all.mass * (after * b.velocity - before * a.velocity +
-                             simulated * kGravity * Eigen::Vector3d::UnitZ());
+                             step.simulated * kGravity * Eigen::Vector3d::UnitZ());
   return step;
 }
 

@@ -32,6 +32,7 @@ struct Step {
   StepKind kind = StepKind::kFlight;
   std::size_t contact = 0;  ///< of an event: which; otherwise the next one (may be past the last)
   double duration = 0;      ///< s
+  double simulated = 0;     ///< the same with retiming undone, s
   /// Change of linear momentum beyond gravity's, velocities as simulated (retiming undone), N s.
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();
 };

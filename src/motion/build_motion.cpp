@@ -160,10 +160,11 @@ class Builder {
       return {};
     }
     stepper_.start(start);
-    const bool met =
-        writer_.run(stepper_, endOf(k), duration + 1e-3, true, [&](const Stepper& s, Advance) {
-          return sameState(rigidState(s.state()), next.event.before);
-        });
+    const auto arrives = [&](const Stepper& s, Advance) {
+      return sameState(rigidState(s.state()), next.event.before);
+    };
+    const bool met = writer_.run(stepper_, endOf(k), duration / next.retiming + 1e-3, true, arrives,
+                                 next.retiming);
     return met ? Result<void>{} : differs(k + 1, "is not reached as planned");
   }
 

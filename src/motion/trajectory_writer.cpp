@@ -74,21 +74,23 @@ void TrajectoryWriter::listSilent(double begin, double end) {
 }
 
 bool TrajectoryWriter::run(Stepper& stepper, double time, double limit, bool silent,
-                           const std::function<bool(const Stepper&, Advance)>& done) {
+                           const std::function<bool(const Stepper&, Advance)>& done,
+                           double stretch) {
   while (stepper.state().time < limit) {
     const KernelState<double> from = stepper.state();
     const Advance did = stepper.advance(Stepper::kNoLimit);
     const KernelState<double>& to = stepper.state();
+    const double begin = time + stretch * from.time, end = time + stretch * to.time;
     switch (did) {
       case Advance::kFlight:
       case Advance::kTouch:
-        inside(from, time + from.time, to.time - from.time, kContactStep);
-        sample(to, time + to.time);
+        inside(from, begin, stretch * (to.time - from.time), kContactStep, stretch);
+        sample(to, end, stretch);
         break;
       case Advance::kImpact:
       case Advance::kContact:
-        sample(to, time + to.time);
-        if (silent) listSilent(time + from.time, time + to.time);
+        sample(to, end, stretch);
+        if (silent) listSilent(begin, end);
         break;
       case Advance::kLift:
         break;

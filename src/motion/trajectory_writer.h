@@ -27,9 +27,9 @@ class TrajectoryWriter {
               double stretch = 1);
   /// Runs `stepper` (time 0 = `time`) until `done` says so after some advance, or it rests, or
   /// `limit` s; writes flights in between at 1 ms and contact at every step. Contact is listed as
-  /// silent where `silent`. Returns whether `done` was met.
+  /// silent where `silent`. Shown `stretch` times slower. Returns whether `done` was met.
   bool run(Stepper& stepper, double time, double limit, bool silent,
-           const std::function<bool(const Stepper&, Advance)>& done);
+           const std::function<bool(const Stepper&, Advance)>& done, double stretch = 1);
 
  private:
   void inside(const KernelState<double>& departure, double time, double duration, double step,

@@ -35,7 +35,7 @@ namespace {
 
 /// Share of its energy that a contact may add where no motion is found otherwise, and the work that
 /// such a motion is worth, where one plan costs 1.
-constexpr double kEasedGain = 0.1, kEasedEffort = 0.4;
+constexpr double kEasedGain = 0.1, kEasedWarp = 0.1, kEasedEffort = 0.4;
 
 // All that the search needs, and what the files are made of afterwards.
 struct Job {
@@ -174,6 +174,7 @@ Result<Fit> plan(const SynchronizeSettings& settings, const Job& job, const Prog
   }
   Fit eased = *found;
   eased.request.settings.energyGain = kEasedGain;
+  eased.request.settings.timeWarp = kEasedWarp;
   eased.request.settings.effort = kEasedEffort;
   Progress again;
   again.stop = progress.stop;

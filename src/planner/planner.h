@@ -35,6 +35,9 @@ struct PlannerSettings {
   double timeLimitSeconds = 0;     ///< cuts the search off; 0: never
   TimeOf timeOf = TimeOf::kClock;  ///< "graph": whose seconds these are, and the plan's
   double energyGain = 0;           ///< eq. 10 relaxed to E (1 + gain), for music
+  /// Share by which what lies between two contacts may be played faster or slower than it was
+  /// simulated (IFA 5.3.2). Of "shoot" and "hybrid"; "graph" has its own.
+  double timeWarp = 0;
   double bendCap = 2;              ///< no contact may be changed by more
   double effort = 1;               ///< scales the budget of counted work
   bool symmetry = true;            ///< "hybrid": events of the database also stand for their images

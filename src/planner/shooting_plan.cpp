@@ -17,6 +17,7 @@ PlannedContact contactOf(const ShootingNode& node) {
   contact.restitution = node.restitution;
   contact.relativeAmplitude = node.heard.amplitude;
   contact.bend = node.bend;
+  contact.retiming = node.retiming;
   contact.arrival = node.arrival;
   contact.arrivalChange = node.arrivalChange;
   contact.arrivalAngularChange = node.arrivalAngular;
@@ -32,6 +33,7 @@ PlannedContact contactOf(const ShootingNode& node) {
 ContactFactors factorsOf(const ShootingNode& node, const HeardEvent& target) {
   ContactFactors factors;
   factors.v = std::exp(logVelocity(node.bend) + logVelocity(node.arrivalBend));
+  factors.t = std::exp(logTimeWarp(node.retiming, 1));
   factors.a = std::exp(logAmplitude(target, node.heard));
   factors.l = std::exp(logDuration(target, node.heard));
   factors.c = std::exp(logCentroid(target, node.heard));

@@ -51,6 +51,11 @@ auto ShootingWorker::wayTo(const ShootingNode& node, int level, double time) con
   Way way;
   if (duration < shortestPassage()) return {0, ShootingNode::kNotSilent, 2 * hopeless};
   way.flightCost = flightCost(node, level, duration);
+  for (const double off : {-slack(duration), slack(duration)}) {
+    if (settings().timeWarp <= 0 || way.flightCost < 1) break;
+    const double flown = duration + off, warp = -logTimeWarp(duration, flown);
+    way.flightCost = std::min(way.flightCost, warp + flightCost(node, level, flown));
+  }
   way.cost = way.flightCost;
   if (way.flightCost < 1) return way;
   const double horizon = silentHorizon(duration);
@@ -60,7 +65,9 @@ auto ShootingWorker::wayTo(const ShootingNode& node, int level, double time) con
     return way;
   }
   const double delay = next ? std::min(next->delay, horizon) : horizon;
-  way.silentOff = std::abs(delay - duration) / std::max(0.004, 0.1 * duration);
+  const double missed = std::abs(delay - duration);
+  way.silentOff = (settings().timeWarp > 0 ? std::max(0.0, missed - slack(duration)) : missed) /
+                  std::max(0.004, 0.1 * duration);
   way.cost = std::min({hopeless, way.flightCost, 0.5 + way.silentOff * way.silentOff});
   return way;
 }

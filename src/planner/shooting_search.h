@@ -51,6 +51,7 @@ struct ShootingNode {
   double start = 0;        ///< s after the first contact
   double moved = 0;        ///< s from the target's mark to the alternative that is met
   double restitution = 0;  ///< inside this event
+  double retiming = 1;     ///< time of the way here, as shown, over that of its simulation
   Eigen::Vector3d velocityChange = Eigen::Vector3d::Zero();  ///< that leads here from the parent
   Eigen::Vector3d angularChange = Eigen::Vector3d::Zero();
   /// By how much the event's own velocities differ from those with which the body arrives.

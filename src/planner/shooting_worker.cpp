@@ -6,7 +6,6 @@
 
 #include "dynamics/energy.h"
 #include "dynamics/simulator.h"
-#include "planner/silent_search.h"
 #include "sampler/drop_statistics.h"
 #include "sampler/initial_state.h"
 
@@ -40,6 +39,15 @@ void ShootingWorker::plant(unsigned root, std::uint64_t seed) {
 
 /// Silence is simulated for so long; later contacts are all just too late.
 double ShootingWorker::silentHorizon(double duration) { return 1.3 * duration + 0.01; }
+
+/// By how much a passage may miss the time that it is shown in, s.
+double ShootingWorker::slack(double duration) const {
+  return std::max(kSilentPrecision, duration * settings().timeWarp / (1 + settings().timeWarp));
+}
+
+SilentSearchSettings ShootingWorker::silentSettings(int probes, double duration) const {
+  return {probes, problem_.settings.silentTries, problem_.settings.spread, slack(duration)};
+}
 
 /// From the end of a whole drop: the event after which as many follow as the signature has. A sound
 /// of few contacts is rarely a hard throw, and one of a single contact never is.
@@ -134,7 +142,11 @@ void ShootingWorker::expandTo(const ShootingNode& node, ShootingNode child, cons
     }
     const double restitution = variedRestitution(i, random);
     const double eager = i == 0 || !steered ? 1 : random.uniform(0.5, 1.5);
-    shoot(node, child, region, wish, duration, eager, restitution, bound);
+    TimeWarp time{duration, duration};
+    if (i > 0 && settings().timeWarp > 0) {
+      time.flightTime += slack(duration) * random.uniform(-1, 1);
+    }
+    shoot(node, child, region, wish, time, eager, restitution, bound);
   }
   const int aimed = level + 1 == n ? set.aimedEndingBeam : set.aimedBeam;
   if (flies && index < aimed && !problem_.aims.empty() && !node.event.touchingAfter) {
@@ -161,8 +173,9 @@ bool ShootingWorker::stuckAfter(int level) const {
 }
 
 void ShootingWorker::shoot(const ShootingNode& node, ShootingNode child,
-                           const PlausibleRegion& region, const Coordinates& wish, double duration,
-                           double eager, double restitution, double bound) {
+                           const PlausibleRegion& region, const Coordinates& wish,
+                           const TimeWarp& time, double eager, double restitution, double bound) {
+  const double duration = time.flightTime;
   const double mostEnergy = node.energyBefore * (1 + settings().energyGain);
   const auto flight = timeFlight(problem_.model, node.event.after, region, wish, duration,
                                  mostEnergy, steeredTo(node, child.level, region, duration, eager));
@@ -184,7 +197,7 @@ void ShootingWorker::shoot(const ShootingNode& node, ShootingNode child,
     return;
   }
   const Edge edge{flight->velocityChange, flight->angularVelocityChange, flight->bend,
-                  Arrival::kFlight, duration};
+                  Arrival::kFlight, time};
   arrive(node, child, edge, touch->state, restitution, bound);
 }
 
@@ -217,12 +230,12 @@ void ShootingWorker::shootSilently(const ShootingNode& node, const ShootingNode&
       return;
     }
     edge.arrival = next->silentContact ? Arrival::kSilentContact : Arrival::kFlight;
-    edge.duration = next->delay;
+    const bool onTime = std::abs(next->delay - duration) < kSilentPrecision;
+    edge.time = {next->delay, onTime ? next->delay : duration};
     const RigidState arrival = next->state;
     arrive(node, child, edge, arrival, variedRestitution(attempt++, random), bound);
   };
-  findOnTime(probe, found, {probes, problem_.settings.silentTries, problem_.settings.spread},
-             random);
+  findOnTime(probe, found, silentSettings(probes, duration), random);
 }
 
 /// Flies to the next contact such that what follows it in silence ends on time at the one after:
@@ -252,13 +265,11 @@ void ShootingWorker::shootAhead(const ShootingNode& node, const ShootingNode& ch
   };
   const auto found = [&] {
     const Edge edge{flight->velocityChange, flight->angularVelocityChange, flight->bend,
-                    Arrival::kFlight, duration};
+                    Arrival::kFlight, {duration, duration}};
     arrive(node, child, edge, touch->state, problem_.model.surface.restitution, bound);
   };
-  findOnTime(
-      probe, found,
-      {problem_.settings.silentProbes, problem_.settings.silentTries, problem_.settings.spread},
-      random);
+  findOnTime(probe, found, silentSettings(problem_.settings.silentProbes, after - child.start),
+             random);
 }
 
 /// Simulates the contact event and keeps the ways it may end that fit the target best.
@@ -281,7 +292,11 @@ void ShootingWorker::arrive(const ShootingNode& node, ShootingNode child, const 
   child.arrival = edge.arrival;
   child.restitution = restitution;
   child.source = jump.source;
-  if (!first) child.start = node.start + node.event.end + edge.duration;
+  if (!first) {
+    child.start = node.start + node.event.end + edge.time.shownTime;
+    child.retiming = edge.time.stretch();
+    child.log.motion += logTimeWarp(child.retiming, 1);
+  }
   const double nominal = problem_.model.surface.restitution;
   // A change of restitution changes the rebound as a change of velocity along the impulse would.
   const double rebound =

@@ -4,7 +4,9 @@
 
 #include <vector>
 
+#include "connection/time_warp.h"
 #include "planner/shooting_search.h"
+#include "planner/silent_search.h"
 
 namespace ifa {
 
@@ -40,7 +42,7 @@ class ShootingWorker {
     Eigen::Vector3d velocityChange, angularChange;
     double bend = 0;
     Arrival arrival = Arrival::kFlight;
-    double duration = 0;
+    TimeWarp time;
   };
   /// Velocities that a contact makes up for at once, so that it goes as it did in the database.
   struct Jump {
@@ -58,7 +60,7 @@ class ShootingWorker {
                 RandomStream& random, double bound);
   [[nodiscard]] Way wayTo(const ShootingNode& node, int level, double time) const;
   void shoot(const ShootingNode& node, ShootingNode child, const PlausibleRegion& region,
-             const Coordinates& wish, double duration, double eager, double restitution,
+             const Coordinates& wish, const TimeWarp& time, double eager, double restitution,
              double bound);
   void shootSilently(const ShootingNode& node, const ShootingNode& child,
                      const PlausibleRegion& region, double duration, int probes,
@@ -86,6 +88,8 @@ class ShootingWorker {
   [[nodiscard]] const PlannerSettings& settings() const { return problem_.request.settings; }
   [[nodiscard]] double shortestPassage() const;
   [[nodiscard]] static double silentHorizon(double duration);
+  [[nodiscard]] double slack(double duration) const;
+  [[nodiscard]] SilentSearchSettings silentSettings(int probes, double duration) const;
   [[nodiscard]] double endingCost(const ShootingNode& node, const RigidState& arrival) const;
   [[nodiscard]] HeardEvent heardOf(const ContactEvent& event, double firstAmplitude) const;
   [[nodiscard]] double mergeGapOf(std::size_t level) const;

@@ -10,21 +10,20 @@ namespace ifa {
 
 namespace {
 
-/// A silent passage is timed to this, s; contact starts are exact to it.
-constexpr double kSilentPrecision = 1e-6;
 /// Changes farther out than this are not tried, in units of the plausible region.
 constexpr double kFarthest = 2.5;
 
 /// Illinois' false position with a bisection now and then: the function may jump where another
 /// vertex comes first. Ends with a call of `miss` within the precision, or false.
 template <class Miss>
-bool closeIn(const Miss& miss, double low, double high, double atLow, double atHigh) {
+bool closeIn(const Miss& miss, double low, double high, double atLow, double atHigh,
+             double precision) {
   for (int step = 0; step < 50; ++step) {
     const double share = step % 3 == 2 ? 0.5 : atLow / (atLow - atHigh);
     const double middle = low + (high - low) * std::clamp(share, 0.01, 0.99);
     const double off = miss(middle);
     if (off >= kNever) return false;
-    if (std::abs(off) < kSilentPrecision) return true;
+    if (std::abs(off) < precision) return true;
     if ((off < 0) == (atLow < 0)) {
       low = middle;
       atLow = off;
@@ -144,6 +143,7 @@ void findOnTime(const std::function<SilentProbe(const Coordinates&)>& probe,
     const double spread = i == 0 ? 0 : settings.spread * (0.3 + 0.9 * i / settings.probes);
     for (int axis = 0; axis < 6; ++axis) y[axis] = spread * bellShaped(random);
     const SilentProbe tried = probe(y);
+    if (std::abs(tried.off) < settings.precision) found();
     if (tried.off < kNever) all.push_back(tried);
   }
   if (all.empty()) return;
@@ -164,7 +164,7 @@ void findOnTime(const std::function<SilentProbe(const Coordinates&)>& probe,
     const auto along = [&](double s) {
       return probe(pair.early.y + s * (pair.late.y - pair.early.y)).off;
     };
-    if (closeIn(along, 0, 1, pair.early.off, pair.late.off)) found();
+    if (closeIn(along, 0, 1, pair.early.off, pair.late.off, settings.precision)) found();
   }
 }
 

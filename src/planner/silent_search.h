@@ -12,6 +12,8 @@
 
 namespace ifa {
 
+/// A silent passage is timed to this, s; contact starts are exact to it.
+inline constexpr double kSilentPrecision = 1e-6;
 /// Stands for a time that never comes, s.
 inline constexpr double kNever = 1e8;
 
@@ -31,6 +33,7 @@ struct SilentSearchSettings {
   int probes = 16;       ///< changes tried
   int tries = 3;         ///< pairs of them, one too early and one too late, that are followed up
   double spread = 0.45;  ///< standard deviation of a change, in units of the plausible region
+  double precision = kSilentPrecision;  ///< what is off by less is on time, s
 };
 
 /// Tries some changes, and between two of which one comes too early and one too late looks for one
