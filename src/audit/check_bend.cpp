@@ -18,8 +18,6 @@ constexpr double kLinearSize = 0.4, kAngularSize = 0.2;
 constexpr double kSmallestChange = 0.05;
 // Digits by which a stated bend may be smaller than the one found here.
 constexpr double kRounding = 1e-6;
-// Within these a step of no duration is the listed change and not an impact, m/s and rad/s.
-constexpr double kSameVelocity = 1e-9, kSameSpin = 1e-6;
 
 /// Squared length of `change` in units of the region around `reference`.
 double bendSquared(const Vector3d& change, const Vector3d& reference, double size, double degrees,
@@ -32,25 +30,11 @@ double bendSquared(const Vector3d& change, const Vector3d& reference, double siz
          std::pow(across / (semiAxis * std::tan(degrees * kDegree)), 2);
 }
 
-/// A change of velocity, m/s and rad/s, world frame.
-struct Change {
-  Vector3d linear, angular;
-};
-
 /// First and last sample of an event.
 struct EventEnds {
   const MotionSample* first = nullptr;
   const MotionSample* last = nullptr;
 };
-
-/// Whether a step of no duration out of contact `index` is the listed change, and not an impact.
-bool isChange(const Evidence& all, const Step& step, std::size_t index, const Change& change) {
-  const double leaving = all.retiming(index + 1);
-  const MotionSample &a = all.sample(step.from), &b = all.sample(step.from + 1);
-  const Vector3d linear = leaving * b.velocity - a.velocity - change.linear;
-  const Vector3d angular = leaving * b.angularVelocity - a.angularVelocity - change.angular;
-  return step.duration <= 0 && linear.norm() < kSameVelocity && angular.norm() < kSameSpin;
-}
 
 /// Whether a step only cuts what little motion is left where the body comes to rest ("rest speed"):
 /// no contact made that change.
@@ -59,28 +43,21 @@ bool isFreezing(const Evidence& all, const Step& step) {
   const double weight = all.mass * kGravity;
   return step.duration <= 0 && a.time >= all.restTime - kSameTime && b.velocity.norm() == 0 &&
          b.angularVelocity.norm() == 0 &&
-         all.energy(a) - weight * a.position.z() <= weight * all.depth;
+         all.energy(step.from) - weight * a.position.z() <= weight * all.depth;
 }
 
-/// Ends of contact `index`'s event; null where there is none. With a `change` that leads out of it,
-/// the last sample is the one right after that, where it is seen: it may press the body down again
-/// in the same instant.
-EventEnds endsOf(const Evidence& all, std::size_t index, const Change* change = nullptr) {
+/// Ends of contact `index`'s event, up to the change that leads out of it; null where there is
+/// none.
+EventEnds endsOf(const Evidence& all, std::size_t index) {
   EventEnds ends;
   for (const Step& step : all.steps) {
     if (step.kind != StepKind::kEvent || step.contact != index) continue;
     if (ends.first != nullptr && isFreezing(all, step)) break;
     if (ends.first == nullptr) ends.first = &all.sample(step.from);
     ends.last = &all.sample(step.from + 1);
-    if (change != nullptr && isChange(all, step, index, *change)) break;
+    if (step.from + 1 == all.departures[index]) break;
   }
   return ends;
-}
-
-/// The changes of velocity that impulses make of a body in the orientation `q`.
-Change changeBy(const Evidence& all, const Vector3d& impulse, const Vector3d& angular,
-                const Eigen::Quaterniond& q) {
-  return {impulse / all.mass, q * (all.body.inertia.inverse() * (q.conjugate() * angular))};
 }
 
 /// Bends of the changes that the file says were made where contact `index` begins and ends.
@@ -89,17 +66,15 @@ struct Bends {
 };
 
 Bends bendsOf(const Evidence& all, std::size_t index) {
-  const EventEnds whole = endsOf(all, index);
-  if (whole.first == nullptr) return {};
+  const EventEnds ends = endsOf(all, index);
+  if (ends.first == nullptr) return {};
   const MotionContact& contact = all.contact(index);
-  const Change came = changeBy(all, contact.arrivalImpulseChange, contact.arrivalAngularChange,
-                               whole.first->orientation);
-  Change left{Vector3d::Zero(), Vector3d::Zero()};
-  EventEnds ends = whole;
+  const Change came = all.changeBy(contact.arrivalImpulseChange, contact.arrivalAngularChange,
+                                   ends.first->orientation);
+  Change left;
   if (index + 1 < all.motion.contacts.size()) {
     const MotionContact& next = all.contact(index + 1);
-    left = changeBy(all, next.impulseChange, next.angularChange, whole.last->orientation);
-    ends = endsOf(all, index, &left);
+    left = all.changeBy(next.impulseChange, next.angularChange, ends.last->orientation);
   }
   // The contact as it was simulated: neither change has a part in it.
   const double before = all.retiming(index), after = all.retiming(index + 1);

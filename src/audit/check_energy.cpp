@@ -20,13 +20,13 @@ EventEnergy energyOf(const Evidence& all, std::size_t index) {
   for (const Step& step : all.steps) {
     if (step.kind != StepKind::kEvent || step.contact != index) continue;
     if (!energy.seen) {
-      energy.before = lowest = all.energy(all.sample(step.from), all.retiming(index));
+      energy.before = lowest = all.energy(step.from);
       energy.seen = true;
     }
     // What was added when the event was over is the plan's change, judged with the whole event.
     const bool ends = step.from + 2 >= all.motion.trajectory.size() ||
                       all.sample(step.from + 1).time >= all.contact(index).end - kSameTime;
-    const double now = all.energy(all.sample(step.from + 1), ends ? all.retiming(index + 1) : 1);
+    const double now = all.energy(step.from + 1);
     if (!ends) energy.rise = std::max(energy.rise, now - lowest);
     lowest = std::min(lowest, now);
     energy.after = now;
@@ -42,10 +42,8 @@ AuditCheck silentEnergy(const Evidence& all) {
       lowest = std::numeric_limits<double>::infinity();
       continue;
     }
-    const double retiming = all.retiming(step.contact);
-    lowest = std::min(lowest, all.energy(all.sample(step.from), retiming));
-    worst.see(all.energy(all.sample(step.from + 1), retiming) - lowest,
-              all.sample(step.from + 1).time);
+    lowest = std::min(lowest, all.energy(step.from));
+    worst.see(all.energy(step.from + 1) - lowest, all.sample(step.from + 1).time);
   }
   return worst.check("silent energy", "J gained", all.mass * kGravity * all.depth);
 }

@@ -69,7 +69,7 @@ AuditCheck freezing(const Evidence& all) {
     if (sample.time < eventEnd - kSameTime) break;
     if (sample.time < eventEnd + kSameTime && !isLastAt(all.motion, i)) break;
     if (speedOf(all, sample) == 0) continue;
-    const double kinetic = all.energy(sample) - all.mass * kGravity * sample.position.z();
+    const double kinetic = all.energy(i) - all.mass * kGravity * sample.position.z();
     worst.see(kinetic, sample.time);
     break;
   }

@@ -10,6 +10,9 @@
 namespace ifa::audit_detail {
 namespace {
 
+// Within these a step of no duration is the listed change and not an impact, m/s and rad/s.
+constexpr double kSameVelocity = 1e-9, kSameSpin = 1e-6;
+
 bool within(const MotionSample& a, const MotionSample& b, double from, double to) {
   return a.time >= from - kSameTime && b.time <= to + kSameTime;
 }
@@ -47,25 +50,50 @@ Step makeStep(const Evidence& all, std::size_t from) {
   step.contact = contactOf(all.motion, a, b);
   step.kind = kindOf(all, step.contact, a, b);
   step.duration = b.time - a.time;
-  // A retimed passage is played slower or faster than simulated; an event's first and last sample
-  // belong to such passages with one side each.
-  double before = 1, after = 1;
-  step.simulated = step.duration;
-  if (step.kind == StepKind::kFlight || step.kind == StepKind::kSilent) {
-    before = after = all.retiming(step.contact);
-    step.simulated /= before;
-  } else if (step.kind == StepKind::kEvent) {
-    const MotionContact& contact = all.contact(step.contact);
-    if (std::abs(a.time - contact.time) < kSameTime && isFirstAt(all.motion, from)) {
-      before = all.retiming(step.contact);
-    }
-    if (std::abs(b.time - contact.end) < kSameTime && isLastAt(all.motion, from + 1)) {
-      after = all.retiming(step.contact + 1);
-    }
-  }
-  step.impulse = all.mass * (after * b.velocity - before * a.velocity +
+  // Between contacts a retimed motion is played slower or faster than simulated.
+  const bool retimed = step.kind == StepKind::kFlight || step.kind == StepKind::kSilent;
+  step.simulated = retimed ? step.duration / all.retiming(step.contact) : step.duration;
+  step.impulse = all.mass * (all.pace[from + 1] * b.velocity - all.pace[from] * a.velocity +
                              step.simulated * kGravity * Eigen::Vector3d::UnitZ());
   return step;
+}
+
+/// The sample after which contact `index` is left: where the listed change is seen, since the body
+/// may be pressed down again in the same instant, or the last at the event's end.
+std::size_t departureOf(const Evidence& all, std::size_t index) {
+  const auto& samples = all.motion.trajectory;
+  const double end = all.contact(index).end;
+  std::size_t at = 0;
+  while (at + 1 < samples.size() && samples[at].time < end - kSameTime) ++at;
+  const bool followed = index + 1 < all.motion.contacts.size();
+  for (; !isLastAt(all.motion, at); ++at) {
+    const MotionSample &a = samples[at], &b = samples[at + 1];
+    if (!followed) continue;
+    const MotionContact& next = all.contact(index + 1);
+    const Change change = all.changeBy(next.impulseChange, next.angularChange, b.orientation);
+    const Eigen::Vector3d linear = next.retiming * b.velocity - a.velocity - change.linear;
+    const Eigen::Vector3d angular =
+        next.retiming * b.angularVelocity - a.angularVelocity - change.angular;
+    if (linear.norm() < kSameVelocity && angular.norm() < kSameSpin) return at + 1;
+  }
+  return at;
+}
+
+/// By what the velocities of the samples are to be multiplied.
+std::vector<double> paceOf(const Evidence& all) {
+  const auto& samples = all.motion.trajectory;
+  std::vector<double> pace(samples.size(), 1);
+  std::size_t i = 0;
+  for (std::size_t k = 0; k < all.motion.contacts.size(); ++k) {
+    const double start = all.contact(k).time;
+    // With its first sample the body arrives; the others at that time are the contact's own.
+    for (; i < samples.size() && (samples[i].time < start - kSameTime); ++i) {
+      pace[i] = all.retiming(k);
+    }
+    if (i < samples.size()) pace[i++] = all.retiming(k);
+    i = std::max(i, all.departures[k]);
+  }
+  return pace;
 }
 
 /// After a terminal event's end and the silent contact that follows it.
@@ -87,11 +115,6 @@ double eventThreshold(const Motion& motion, const Body& body, const AuditSetting
 
 }  // namespace
 
-bool isFirstAt(const Motion& motion, std::size_t index) {
-  return index == 0 ||
-         motion.trajectory[index - 1].time < motion.trajectory[index].time - kSameTime;
-}
-
 bool isLastAt(const Motion& motion, std::size_t index) {
   return index + 1 >= motion.trajectory.size() ||
          motion.trajectory[index + 1].time > motion.trajectory[index].time + kSameTime;
@@ -102,20 +125,30 @@ double Evidence::excess(const Eigen::Vector3d& impulse, double duration) const {
   return std::max(0.0, impulse.norm() - 2 * mass * kGravity * std::max(kBin, duration));
 }
 
-double Evidence::energy(const MotionSample& sample, double retiming) const {
+Change Evidence::changeBy(const Eigen::Vector3d& impulse, const Eigen::Vector3d& angular,
+                          const Eigen::Quaterniond& q) const {
+  return {impulse / mass, q * (body.inertia.inverse() * (q.conjugate() * angular))};
+}
+
+double Evidence::energy(std::size_t index) const {
+  const MotionSample& sample = this->sample(index);
   const Eigen::Vector3d momentum = angularMomentum(sample, body.inertia);
   const double kinetic =
       0.5 * (mass * sample.velocity.squaredNorm() + sample.angularVelocity.dot(momentum));
-  return retiming * retiming * kinetic + mass * kGravity * sample.position.z();
+  return pace[index] * pace[index] * kinetic + mass * kGravity * sample.position.z();
 }
 
 Evidence gatherEvidence(const Motion& motion, const Body& body, const AuditSettings& settings) {
-  Evidence all{motion, body, settings, body.tolerance(), body.mass, 0, 0, {}, {}};
+  Evidence all{motion, body, settings, body.tolerance(), body.mass, 0, 0, {}, {}, {}, {}};
   all.threshold = eventThreshold(motion, body, settings);
   all.restTime = restTimeOf(motion);
   for (const MotionSample& sample : motion.trajectory) {
     all.lowest.push_back(lowestVertex(sample, body.hull));
   }
+  for (std::size_t k = 0; k < motion.contacts.size(); ++k) {
+    all.departures.push_back(departureOf(all, k));
+  }
+  all.pace = paceOf(all);
   for (std::size_t i = 0; i + 1 < motion.trajectory.size(); ++i) {
     all.steps.push_back(makeStep(all, i));
   }

@@ -26,6 +26,11 @@ enum class StepKind {
   kRest     ///< after the body has settled
 };
 
+/// A change of velocity, m/s and rad/s, world frame.
+struct Change {
+  Eigen::Vector3d linear = Eigen::Vector3d::Zero(), angular = Eigen::Vector3d::Zero();
+};
+
 /// From sample `from` to the next.
 struct Step {
   std::size_t from = 0;
@@ -48,6 +53,9 @@ struct Evidence {
   double restTime = 0;         ///< from here on the body rests; infinite when it never does
   std::vector<double> lowest;  ///< height of the lowest vertex at each sample, m
   std::vector<Step> steps;     ///< one less than samples
+  /// Of each contact: the sample from which on the body has the velocity with which it leaves.
+  std::vector<std::size_t> departures;
+  std::vector<double> pace;  ///< of each sample: times its velocities are what was simulated
 
   [[nodiscard]] const MotionSample& sample(std::size_t index) const {
     return motion.trajectory[index];
@@ -62,12 +70,14 @@ struct Evidence {
   /// Impulse above the share that quietly carries the weight, or all of it by the paper's cut
   /// (method, 2), N s; >= 0.
   [[nodiscard]] double excess(const Eigen::Vector3d& impulse, double duration) const;
-  /// Mechanical energy at a sample with its velocities multiplied by `retiming`, J.
-  [[nodiscard]] double energy(const MotionSample& sample, double retiming = 1) const;
+  /// Mechanical energy at a sample with the velocities that were simulated, J.
+  [[nodiscard]] double energy(std::size_t index) const;
+  /// The changes of velocity that impulses (N s, N m s) make of a body in the orientation `q`.
+  [[nodiscard]] Change changeBy(const Eigen::Vector3d& impulse, const Eigen::Vector3d& angular,
+                                const Eigen::Quaterniond& q) const;
 };
 
-/// Whether a sample is the first, or the last, of those that share its time.
-[[nodiscard]] bool isFirstAt(const Motion& motion, std::size_t index);
+/// Whether a sample is the last of those that share its time.
 [[nodiscard]] bool isLastAt(const Motion& motion, std::size_t index);
 
 /// Needs finite samples in order of time.

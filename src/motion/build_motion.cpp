@@ -165,7 +165,9 @@ class Builder {
     };
     const bool met = writer_.run(stepper_, endOf(k), duration / next.retiming + 1e-3, true, arrives,
                                  next.retiming);
-    return met ? Result<void>{} : differs(k + 1, "is not reached as planned");
+    if (!met) return differs(k + 1, "is not reached as planned");
+    motion_.trajectory.pop_back();  // the event begins with it
+    return {};
   }
 
   /// Settles after the last contact, or bounces on when it was not terminal.

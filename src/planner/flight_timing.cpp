@@ -184,6 +184,13 @@ class Timing {
   double drop_;  ///< height of the centre of mass by then, had it no vertical velocity
 };
 
+/// Whether so long a flight takes more energy than there is, however the body turns: the centre of
+/// mass does not end under the ground.
+bool outlasts(const BodyModel& model, double height, double duration, double mostEnergy) {
+  const double rise = 0.5 * kGravity * duration - height / duration;
+  return rise > 0 && model.mass * (0.5 * rise * rise + kGravity * height) > mostEnergy;
+}
+
 }  // namespace
 
 std::optional<TimedFlight> timeFlight(const BodyModel& model, const RigidState& after,
@@ -191,6 +198,7 @@ std::optional<TimedFlight> timeFlight(const BodyModel& model, const RigidState& 
                                       double duration, double mostEnergy,
                                       const std::optional<Eigen::Vector2d>& level) {
   constexpr int kCoolings = 3;
+  if (outlasts(model, after.position.z(), duration, mostEnergy)) return std::nullopt;
   const Timing timing(model, after, region, duration, level);
   timing.steer(wish);
   std::optional<TimedFlight> flight;

@@ -26,7 +26,7 @@ struct TimedFlight {
 /// the lowest vertex is on the ground `duration` seconds later and on its way down: two
 /// Gauss-Newton steps of least norm over all six coordinates, then closed exactly by the vertical
 /// velocity. Where `level` is given, the horizontal velocity is that. Whether something touches
-/// earlier is not looked at here.
+/// earlier is not looked at here. None where so long a flight takes more than `mostEnergy`, J.
 [[nodiscard]] std::optional<TimedFlight> timeFlight(
     const BodyModel& model, const RigidState& after, const PlausibleRegion& region,
     Coordinates wish, double duration, double mostEnergy,

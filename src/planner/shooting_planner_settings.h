@@ -27,6 +27,7 @@ struct ShootingPlannerSettings {
   /// Bends over this cost more than their factor, so much times the square of what is over: one
   /// ugly contact is seen whatever the Score is.
   double largeBend = 0.9, bendAversion = 10;
+  double warpWeight = 0.5;  ///< share of what a time warp costs that counts in rank
   double hopeless = 8;  ///< log units that a motion without a way to the next contact loses in rank
   double restless = 4;  ///< and when it would not come to rest in the last contact
   int silentProbes = 16;  ///< changes tried where the next contact comes after silent contact
@@ -39,7 +40,7 @@ struct ShootingPlannerSettings {
   double dropPenalty = 6;         ///< log units for an event of weight 1 that was dropped
   int passes = 10;                ///< searches with other seeds and wider beams, at most
   double widest = 2.5;            ///< no pass is wider than so many times the first
-  double mostPieces = 3e7;        ///< of motion simulated, after which no other pass begins
+  double mostPieces = 5e6;        ///< of motion simulated, after which no other pass begins
   double goodScore = 0.9;         ///< enough to stop after the first pass, ...
   double goodBend = 1.2;          ///< ... if no bend is over this
   /// Contacts before one that a pass did not get past, in which the next passes follow so many

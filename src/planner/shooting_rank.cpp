@@ -53,7 +53,8 @@ auto ShootingWorker::wayTo(const ShootingNode& node, int level, double time) con
   way.flightCost = flightCost(node, level, duration);
   for (const double off : {-slack(duration), slack(duration)}) {
     if (settings().timeWarp <= 0 || way.flightCost < 1) break;
-    const double flown = duration + off, warp = -logTimeWarp(duration, flown);
+    const double flown = duration + off,
+                 warp = -problem_.settings.warpWeight * logTimeWarp(duration, flown);
     way.flightCost = std::min(way.flightCost, warp + flightCost(node, level, flown));
   }
   way.cost = way.flightCost;

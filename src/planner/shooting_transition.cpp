@@ -40,8 +40,11 @@ void ShootingWorker::shootAimed(const ShootingNode& node, const ShootingNode& ch
     }
     const auto touch = firstTouch(problem_.model, flight->departure, duration + 1e-3);
     if (!touch || std::abs(touch->time - duration) > kTouchPrecision) continue;
-    const Edge edge{flight->velocityChange, flight->angularVelocityChange, flight->bend,
-                    Arrival::kFlight, {duration, duration}};
+    const Edge edge{flight->velocityChange,
+                    flight->angularVelocityChange,
+                    flight->bend,
+                    Arrival::kFlight,
+                    {duration, duration}};
     const EventName name = problem_.request.database->nameOf(aim.event);
     Jump jump;
     jump.source = {SourceKind::kDatabase, static_cast<std::int64_t>(name.simulation),

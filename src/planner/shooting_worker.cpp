@@ -264,8 +264,11 @@ void ShootingWorker::shootAhead(const ShootingNode& node, const ShootingNode& ch
     return silentProbe(y, simulation_.nextAudible(outcomes_[0].after, horizon), horizon, gap);
   };
   const auto found = [&] {
-    const Edge edge{flight->velocityChange, flight->angularVelocityChange, flight->bend,
-                    Arrival::kFlight, {duration, duration}};
+    const Edge edge{flight->velocityChange,
+                    flight->angularVelocityChange,
+                    flight->bend,
+                    Arrival::kFlight,
+                    {duration, duration}};
     arrive(node, child, edge, touch->state, problem_.model.surface.restitution, bound);
   };
   findOnTime(probe, found, silentSettings(problem_.settings.silentProbes, after - child.start),
@@ -295,7 +298,9 @@ void ShootingWorker::arrive(const ShootingNode& node, ShootingNode child, const 
   if (!first) {
     child.start = node.start + node.event.end + edge.time.shownTime;
     child.retiming = edge.time.stretch();
-    child.log.motion += logTimeWarp(child.retiming, 1);
+    const double warp = logTimeWarp(child.retiming, 1);
+    child.log.motion += warp;
+    child.ugly += (1 - problem_.settings.warpWeight) * warp;
   }
   const double nominal = problem_.model.surface.restitution;
   // A change of restitution changes the rebound as a change of velocity along the impulse would.

@@ -138,13 +138,16 @@ void findOnTime(const std::function<SilentProbe(const Coordinates&)>& probe,
                 const std::function<void()>& found, const SilentSearchSettings& settings,
                 RandomStream& random) {
   std::vector<SilentProbe> all;
+  int hits = 0;  // where there is much slack
   for (int i = 0; i < settings.probes; ++i) {
     Coordinates y;
     const double spread = i == 0 ? 0 : settings.spread * (0.3 + 0.9 * i / settings.probes);
     for (int axis = 0; axis < 6; ++axis) y[axis] = spread * bellShaped(random);
     const SilentProbe tried = probe(y);
-    if (std::abs(tried.off) < settings.precision) found();
     if (tried.off < kNever) all.push_back(tried);
+    if (std::abs(tried.off) >= settings.precision) continue;
+    found();
+    if (++hits > settings.tries) return;
   }
   if (all.empty()) return;
   std::vector<SilentPair> pairs = atMost(bracketing(all), settings.tries);
