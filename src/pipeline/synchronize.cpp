@@ -35,7 +35,7 @@ namespace {
 
 /// Share of its energy that a contact may add where no motion is found otherwise, and the work that
 /// such a motion is worth, where one plan costs 1.
-constexpr double kEasedGain = 0.1, kEasedWarp = 0.29, kEasedEffort = 3;
+constexpr double kEasedGain = 0.1, kEasedWarp = 0.29, kEasedEffort = 5;
 
 // All that the search needs, and what the files are made of afterwards.
 struct Job {
