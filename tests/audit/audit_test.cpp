@@ -210,6 +210,10 @@ TEST(Audit, FollowsRetiming) {
   EXPECT_TRUE(report.passed()) << formatAudit(report);
 }
 
+TEST(Audit, CatchesTooMuchRetiming) {
+  EXPECT_TRUE(fails(retimed(makeTumblingMotion(box()), 3, 0.76), "time warp"));
+}
+
 TEST(Audit, CatchesAFlippedQuaternion) {
   Motion motion = makeTumblingMotion(box());
   inFlight(motion, 2).orientation.coeffs() *= -1;

@@ -23,6 +23,7 @@ struct Case {
   std::size_t fewest = 0, most = 0;
   ContactSignature signature = {};  ///< ... or this
   int takes = 1;
+  double timeWarp = 0;
 };
 
 const std::vector<Case>& cases() {
@@ -38,6 +39,8 @@ const std::vector<Case>& cases() {
        clicks({{0, 0, 1, 0, 1}, {0.25, 0, 0.8, 0, 1}, {0.45, 0, 0.6, 0, 1}}, false), 3},
       {"Partial", "d6", 0, 0, 0,
        clicks({{0, 0, 1, 0, 1}, {0.25, 0, 0.8, 0, 1}, {2.25, 0, 0.6, 0, 1}}, true)},
+      {"WarpedDie", "d6", 2, 5, 9, {}, 1, 0.29},
+      {"WarpedCup", "CoffeeCup", 2, 4, 10, {}, 1, 0.29},
   };
   return all;
 }
@@ -65,6 +68,7 @@ const Built& built(std::size_t index) {
   made.request = test::requestFor(made.body);
   made.request.signature = signatureOf(wanted, made.body);
   made.request.settings.takes = wanted.takes;
+  made.request.settings.timeWarp = wanted.timeWarp;
   // Few first contacts bring a body to rest at once.
   const bool one = made.request.signature.events.size() == 1;
   const ShootingPlanner planner(one ? ShootingPlannerSettings() : test::smallSearch());
@@ -134,7 +138,7 @@ TEST_P(BuildMotion, SaysOfContactsWhatThePlanSays) {
       EXPECT_EQ(contact.terminal, planned.event.terminal);
       EXPECT_EQ(contact.arrival, planned.arrival);
       EXPECT_EQ(contact.bend, planned.bend);
-      EXPECT_EQ(contact.retiming, 1);
+      EXPECT_EQ(contact.retiming, planned.retiming);
       if (k == 0) {
         EXPECT_EQ(contact.impulseChange.norm(), 0);
         continue;
@@ -240,7 +244,7 @@ TEST_P(BuildMotion, NeedsNoPreRoll) {
   EXPECT_EQ(motion->trajectory.front().time, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Plans, BuildMotion, testing::Range<std::size_t>(0, 8),
+INSTANTIATE_TEST_SUITE_P(Plans, BuildMotion, testing::Range<std::size_t>(0, 10),
                          [](const auto& planned) {
                            return std::string(cases()[planned.param].name);
                          });
@@ -255,6 +259,21 @@ TEST(BuildMotionTest, PartialPlansSayWhatFailed) {
   EXPECT_FALSE(motion.failure.empty());
   EXPECT_EQ(motion.contacts.size(), 2U);
   EXPECT_GT(motion.trajectory.back().time, 0.25);
+}
+
+TEST(BuildMotionTest, WarpsFlightsAndSilentContact) {
+  const auto warped = [](Arrival arrival) {
+    int count = 0;
+    for (const std::size_t index : {8, 9}) {
+      for (const MotionContact& contact : built(index).motions.at(0).contacts) {
+        EXPECT_LT(std::max(contact.retiming, 1 / contact.retiming), 1.3);
+        if (contact.retiming != 1 && contact.arrival == arrival) ++count;
+      }
+    }
+    return count;
+  };
+  EXPECT_GT(warped(Arrival::kFlight), 0);
+  EXPECT_GT(warped(Arrival::kSilentContact), 0);
 }
 
 TEST(BuildMotionTest, AMotionThatIsNotTerminalGoesOn) {

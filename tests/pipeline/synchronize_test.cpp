@@ -68,16 +68,21 @@ TEST_F(Synchronize, RefusesSettingsThatMakeNoSense) {
   }
 }
 
-// A die that balances on an edge and then rocks for longer than it has energy for.
-TEST_F(Synchronize, SlowlyEasesTheEnergyRatherThanFindNothing) {
-  settings_.sound =
-      std::filesystem::path(IFA_SOURCE_DIR) / "tests/evaluation/d6/d6-05.signature.json";
-  settings_.object = "d6";
+// A cup that rolls unheard for 406 ms and then stops at once: no rolling has such a rhythm.
+TEST_F(Synchronize, SlowlyEasesEnergyAndTimeRatherThanFindNothing) {
+  settings_.sound = std::filesystem::path(IFA_SOURCE_DIR) /
+                    "tests/evaluation/CoffeeCup/CoffeeCup-10.signature.json";
+  settings_.object = "CoffeeCup";
   const auto result = synchronize(settings_);
   ASSERT_TRUE(result) << result.error().text();
   const Motion& motion = result->takes.front();
   EXPECT_TRUE(motion.success) << motion.failure;  // its audit holds
   EXPECT_EQ(motion.energyGain, 0.1);
+  const auto warped = [](const MotionContact& contact) { return contact.retiming != 1; };
+  EXPECT_TRUE(std::any_of(motion.contacts.begin(), motion.contacts.end(), warped));
+  for (const MotionContact& contact : motion.contacts) {
+    EXPECT_NEAR(contact.time, contact.targetTime, 1e-9);
+  }
 }
 
 TEST_F(Synchronize, FitsTheRestitution) {

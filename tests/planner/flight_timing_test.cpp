@@ -138,6 +138,21 @@ TEST_P(FlightTiming, ACapOnEnergyOnlyCools) {
   EXPECT_GT(cooled, hot * 9 / 10);
 }
 
+// Cooling may end in a flight that arrives on its way up; what was cold enough is not refused.
+TEST_P(FlightTiming, RefusesOnlyWhatIsTooHot) {
+  int refused = 0;
+  for (const ContactEvent& event : events_) {
+    const PlausibleRegion region = regionOf(event, model_);
+    const double duration = random_.uniform(0.1, 0.8), energy = totalEnergy(model_, event.before);
+    const Coordinates wish = randomWish(random_, 0.5);
+    const auto free = timeFlight(model_, event.after, region, wish, duration, kAnyEnergy);
+    if (!free || timeFlight(model_, event.after, region, wish, duration, energy)) continue;
+    ++refused;
+    EXPECT_GT(free->energy, energy);
+  }
+  EXPECT_GT(refused, 5);
+}
+
 TEST_P(FlightTiming, FirstTouchIsThatOfTheReference) {
   for (int i = 0; i < 25; ++i) {
     RigidState start = sampleInitialState(ground_.body, 3, static_cast<std::uint64_t>(i));
