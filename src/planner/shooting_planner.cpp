@@ -70,12 +70,27 @@ class ShootingRun {
                [&](double share) { progress_("search", (pass + share) / passes); });
     pieces_ += search.work();
     takes_.add(search);
+    for (int i = 0; i < settings_.again && takes_.plans().empty() && !stop(); ++i) {
+      searchAgain(search, wide);
+    }
     const bool found = !takes_.plans().empty();
     if (!found && !learnsFrom(search) && pass > 0) return false;
     const bool one = found && (pass > 0 || isGood(takes_.plans()[0]));
     work_.count(wide, one);
     if (one && !isShort()) resume(search, wide);
     return !(one && takes_.enough());
+  }
+
+  /// Goes on with other random numbers from a little before the contact that the pass did not get
+  /// past: what came before that is not paid for again.
+  void searchAgain(const ShootingSearch& search, double wide) {
+    const ShootingNode* farthest = search.farthest();
+    if (farthest == nullptr || farthest->level <= settings_.againFrom) return;
+    const auto level = static_cast<std::size_t>(farthest->level - settings_.againFrom);
+    ShootingSearch more(search, kResumed + resumed_++, wide, level, search.kept(level));
+    more.run([this] { return stop(); }, [](double) {});
+    pieces_ += more.work();
+    takes_.add(more);
   }
 
   /// Goes on from where the pass had motions that would make other takes, as long as some do.

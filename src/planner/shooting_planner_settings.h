@@ -41,6 +41,9 @@ struct ShootingPlannerSettings {
   int passes = 10;                ///< searches with other seeds and wider beams, at most
   double widest = 2.5;            ///< no pass is wider than so many times the first
   double mostPieces = 5e6;        ///< of motion simulated, after which no other pass begins
+  /// A pass that finds nothing is gone on with so many times, from so many contacts before the last
+  /// that it reached.
+  int again = 2, againFrom = 3;
   double goodScore = 0.9;         ///< enough to stop after the first pass, ...
   double goodBend = 1.2;          ///< ... if no bend is over this
   /// Contacts before one that a pass did not get past, in which the next passes follow so many
