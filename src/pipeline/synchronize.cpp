@@ -33,7 +33,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Share of its energy that a contact may add where no motion is found otherwise, and the work that
+/// Where no motion is found otherwise: share of its energy that a contact may add, share by which
+/// what lies between two of them may be faster or slower (IFA 5.3.2: under 0.3), and the work that
 /// such a motion is worth, where one plan costs 1.
 constexpr double kEasedGain = 0.1, kEasedWarp = 0.29, kEasedEffort = 5;
 
