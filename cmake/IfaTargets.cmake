@@ -15,6 +15,12 @@ if(IFA_PRECOMPILED_HEADERS AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
                                              -Wno-stringop-overread)
 endif()
 
+# It warns, of headers, that types of ours have members of types that only one file knows; where files are
+# compiled together it takes all of them for headers.
+if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(ifa_flags INTERFACE -Wno-subobject-linkage)
+endif()
+
 # Half of the time of a build from nothing went into reading the same headers again and again. Lint compiles
 # without these (scripts/lint.sh), so that a file which forgets to include something is still found.
 set(IFA_PRECOMPILED <algorithm> <array> <cmath> <filesystem> <functional> <map> <memory> <optional> <span>

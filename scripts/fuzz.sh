@@ -2,14 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 # fuzz.sh [SECONDS [TARGET...]]: builds the fuzzers (tests/fuzz) and runs each for so many seconds
 # (600), as many at a time as there are cores. Ends with 1 if any finds something; the input is then
-# in build/fuzz/found/TARGET: mend the reader, and put the input into tests/fuzz/corpus/TARGET, which
-# the tests of every build read. What they learn stays in build/fuzz/corpus.
+# in build/asan-ubsan/found/TARGET: mend the reader, and put the input into tests/fuzz/corpus/TARGET, which
+# the tests of every build read. What they learn stays in build/asan-ubsan/corpus.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-export seconds=${1:-600} build=build/fuzz
+export seconds=${1:-600} build=build/asan-ubsan
 [ $# -gt 0 ] && shift
-cmake --preset fuzz >/dev/null
-cmake --build --preset fuzz
+cmake --preset asan-ubsan >/dev/null
+cmake --build --preset asan-ubsan --target fuzzers
 
 # Targets that read files keep theirs in memory.
 scratch=$(mktemp -d -p "$([ -w /dev/shm ] && echo /dev/shm || echo /tmp)")

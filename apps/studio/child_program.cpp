@@ -8,10 +8,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
 #include <optional>
+
+#include "base/sanitized.h"
 
 namespace ifa::studio {
 namespace {
@@ -34,7 +37,7 @@ void limit(__rlimit_resource what, rlim_t most) {
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, 600);
   limit(RLIMIT_FSIZE, rlim_t{1} << 30);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // these reserve terabytes
+#ifndef IFA_SANITIZED  // these reserve terabytes
   limit(RLIMIT_AS, rlim_t{8} << 30);
 #endif
   const int nothing = ::open("/dev/null", O_RDONLY);

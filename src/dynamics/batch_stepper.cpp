@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dynamics/batch_stepper.h"
 
+#include "base/sanitized.h"
 #include "dynamics/batch_data.h"
 
 // Of the instruction sets that Highway knows for x86: the one that every processor has, AVX2 and
@@ -18,7 +19,7 @@
 // Each station is compiled as one function, which saves 4 to 8 % of the time; not where every
 // access is checked: compilers take too long over it.
 #undef IFA_ONE_FUNCTION
-#if defined(NDEBUG) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(NDEBUG) && !defined(IFA_SANITIZED)
 #define IFA_ONE_FUNCTION HWY_FLATTEN
 #else
 #define IFA_ONE_FUNCTION

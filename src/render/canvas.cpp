@@ -4,6 +4,7 @@
 #include <cairo/cairo.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 

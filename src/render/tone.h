@@ -2,6 +2,7 @@
 // From light to the numbers of a screen.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 

@@ -151,8 +151,9 @@ TEST(Library, ADieRestsFlatWithEachFaceUp) {
     for (const auto& [face, up] : body->definition.faces) {
       double lowest = 1;
       for (const auto& p : body->hull) lowest = std::min(lowest, p.dot(up));
-      const auto touching = std::count_if(body->hull.begin(), body->hull.end(),
-                                          [&](const auto& p) { return p.dot(up) < lowest + 1e-7; });
+      const auto touching =
+          std::count_if(body->hull.begin(), body->hull.end(),
+                        [&, &up = up](const auto& p) { return p.dot(up) < lowest + 1e-7; });
       EXPECT_EQ(touching, resting) << name << " " << face;
     }
   }

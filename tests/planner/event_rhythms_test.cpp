@@ -46,8 +46,9 @@ TEST_F(EventRhythms, FindsWhatTheSoundWasMadeOf) {
     for (const auto& [signature, first] : cases(5, terminal)) {
       for (std::size_t level = 0; level < 5; ++level) {
         const auto best = eventsInRhythm(database(), signature, level, database().events());
+        const auto event = first + level;
         const auto own = std::find_if(best.begin(), best.end(), [&](const RhythmMatch& match) {
-          return match.event == first + level;
+          return match.event == event;
         });
         ASSERT_NE(own, best.end()) << first << " " << level;
         EXPECT_NEAR(own->cost, 0, 1e-3);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "audit/analytic_motion.h"
 #include "scenes.h"
 

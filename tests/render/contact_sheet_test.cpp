@@ -85,7 +85,7 @@ TEST(ContactSheet, WritesCaptionsBelowAndATitleAbove) {
   const auto all = entries(2);
   const Image sheet = contactSheet(all, "title");
   const auto [left, top] = placesOf(sheet, all.front().picture).front();
-  const auto letters = [&](int from, int to) {
+  const auto letters = [&, left = left](int from, int to) {
     int count = 0;
     for (int y = from; y < to; ++y) {
       for (int x = left; x < left + kWidth; ++x) count += test::brightness(sheet, x, y) > 300;

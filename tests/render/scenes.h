@@ -2,6 +2,7 @@
 // Bodies and motions whose pictures can be worked out by hand.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <memory>

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/sanitized.h"
 #include "raw_client.h"
 #include "studio/studio.h"
 #include "support/clicks.h"
@@ -26,7 +27,7 @@ constexpr const char* kJson = "application/json";
 
 /// Of this process; 0 under sanitisers, which keep what was freed.
 inline std::size_t residentBytes() {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef IFA_SANITIZED
   return 0;
 #else
   std::ifstream stream("/proc/self/statm");
