@@ -46,6 +46,13 @@ SignatureEvent eventAt(const Sound& sound, const Label& label, double nextStart,
   return event;
 }
 
+/// The alternatives of a label, s after the first contact, which itself has none.
+std::vector<AlternativeStart> alternativesOf(const Label& label, double origin) {
+  auto alternatives = label.alternatives;
+  for (AlternativeStart& other : alternatives) other.time -= origin;
+  return label.start > origin ? alternatives : std::vector<AlternativeStart>();
+}
+
 /// What the file itself tells of an event.
 SignatureEvent eventOf(const Label& label, double origin) {
   SignatureEvent event;
@@ -55,6 +62,7 @@ SignatureEvent eventOf(const Label& label, double origin) {
   // Decision: of a rattle that nobody has heard, the middle.
   event.centroid = std::min(label.centroid.value_or(event.duration / 2), event.duration);
   event.weight = label.weight;
+  event.alternatives = alternativesOf(label, origin);
   return event;
 }
 
@@ -140,8 +148,7 @@ Result<ContactSignature> signatureFromLabels(const Sound& sound, const std::vect
     if (told) event.amplitude = *merged[i].amplitude;
     if (merged[i].centroid) event.centroid = std::min(*merged[i].centroid, event.duration);
     event.weight = merged[i].weight;
-    if (i > 0) event.alternatives = merged[i].alternatives;
-    for (AlternativeStart& other : event.alternatives) other.time -= signature.firstContact;
+    event.alternatives = alternativesOf(merged[i], signature.firstContact);
     signature.events.push_back(event);
   }
   if (!normalise(signature)) {
@@ -181,6 +188,8 @@ std::vector<Label> labelsFromSignature(const ContactSignature& signature) {
     label.amplitude = event.amplitude;
     if (event.duration > 0) label.centroid = event.centroid;
     label.weight = event.weight;
+    label.alternatives = event.alternatives;
+    for (AlternativeStart& other : label.alternatives) other.time += signature.firstContact;
     labels.push_back(std::move(label));
   }
   if (!labels.empty()) labels.back().text += signature.terminal ? " terminal" : " non-terminal";

@@ -46,7 +46,8 @@ class Biquad {
 }  // namespace
 
 BandEnergy::BandEnergy(const Sound& sound, double lowHz, double highHz, std::size_t samplesPerHop)
-    : samplesPerHop_(static_cast<double>(samplesPerHop)) {
+    : samplesPerHop_(static_cast<double>(samplesPerHop)),
+      width_((highHz > 0 ? highHz : sound.rate / 2.0) - lowHz) {
   Biquad high = Biquad::butterworth(true, lowHz, sound.rate);
   Biquad low = highHz > 0 ? Biquad::butterworth(false, highHz, sound.rate) : Biquad();
   sums_.reserve(sound.samples.size() / samplesPerHop + 2);

@@ -18,10 +18,13 @@ class BandEnergy {
   /// Mean square over hops [from, to), cut to the sound; 0 where nothing is left.
   [[nodiscard]] double mean(std::ptrdiff_t from, std::ptrdiff_t to) const;
   [[nodiscard]] std::size_t hops() const { return sums_.size() - 1; }
+  /// Hz between its edges.
+  [[nodiscard]] double width() const { return width_; }
 
  private:
   std::vector<double> sums_;  ///< of squares over the hops before each; one more than hops
   double samplesPerHop_;
+  double width_;
 };
 
 /// The bands of a sound below its Nyquist frequency, and their common time steps.

@@ -15,7 +15,7 @@ struct DetectedContact {
   double end = 0;    ///< s; equal to `start` for a discrete contact, later for a rattle or a roll
   double level = 0;  ///< dB relative to the loudest contact, <= 0
   double rise = 0;   ///< dB by which the attack stands over what was there before, mean over bands
-  double confidence = 1;  ///< 0 to 1: the share of contacts with such a rise that are true ones
+  double confidence = 1;  ///< 0 to 1: the share of contacts that are heard so that are true ones
 };
 
 /// All that can be tuned; docs/detection.md tells how the defaults were found.
@@ -31,11 +31,13 @@ struct DetectorSettings {
   double rattleGap = 0.030;    ///< s; a longer pause between them ends it
   double denseGap = 0.010;     ///< s; contacts at the end with a rise as often are one rattle
   double rattlePause = 0.070;  ///< s; so are those with no longer pause between the rises ...
-  int rattleFill = 3;          ///< ... that part them, if these are as many
-  double minDuration = 0.020;  ///< s; a shorter rattle is none: the last contact is discrete
+  int rattleFill = 4;          ///< ... that part them, if these are as many; so many any rattle has
+  double falseAlarm = 1e-6;    ///< share of moments at which noise may rise like a soft contact
+  double noiseEase = 3;        ///< dB of a rise that noise may hide
+  double ringSlope = 1.0 / 3;  ///< dB more are asked for every dB that something rings above it
 };
 
-/// Contacts in order of time; only the last one may be a region (a rattle or roll at the end, which
+/// Contacts in order of time; only one near the end may be a region (a rattle or roll, which
 /// swallows the contacts in it): the merge filter of a signature joins what is dense elsewhere.
 /// Times are multiples of 0.25 ms, give or take half a sample. Errors: kBadInput when nothing in
 /// the sound is an attack.

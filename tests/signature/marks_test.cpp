@@ -18,7 +18,8 @@ using testing::HasSubstr;
 
 constexpr double kMicrosecond = 1.0000001e-6;
 
-/// Labels somewhere in a sound of ten seconds, on no sample in particular.
+/// Labels somewhere in a sound of ten seconds, on no sample in particular. Some are in doubt, and
+/// some are so near to the one before that they become one event with it.
 std::vector<Label> drawLabels() {
   const auto draws = *rc::gen::nonEmpty(
       rc::gen::container<std::vector<std::uint32_t>>(rc::gen::arbitrary<std::uint32_t>()));
@@ -29,8 +30,9 @@ std::vector<Label> drawLabels() {
     label.start = time;
     label.end = time + (draws[i] % 3 == 0 ? 0.0101 + draws[i] % 99991 * 1.000007e-6 : 0);
     label.text = "c, \"" + std::to_string(i) + "\"";
+    if (draws[i] % 5 < 2) label.weight = draws[i] % 90 / 100.0;
     labels.push_back(label);
-    time = label.end + 0.011 + draws[i] / 1e10;
+    time = label.end + (draws[i] % 7 == 0 ? 0.004 : 0.011) + draws[i] / 1e10;
   }
   labels.back().text += draws[0] % 2 == 0 ? " terminal" : " non-terminal";
   return labels;
@@ -42,10 +44,47 @@ Sound noise(int rate) {
   return sound;
 }
 
+/// Times, durations and how a signature ends: what every format keeps.
+void compareTimes(const ContactSignature& before, const ContactSignature& after) {
+  RC_ASSERT(after.terminal == before.terminal);
+  RC_ASSERT(after.events.size() == before.events.size());
+  RC_ASSERT(std::abs(after.firstContact - before.firstContact) < kMicrosecond);
+  for (std::size_t i = 0; i < before.events.size(); ++i) {
+    const SignatureEvent &one = before.events[i], &other = after.events[i];
+    // Both ends of a span may be rounded.
+    RC_ASSERT(std::abs(other.time - one.time) < kMicrosecond);
+    RC_ASSERT(std::abs(other.duration - one.duration) < kMicrosecond);
+  }
+}
+
+/// How loud the events are and how surely they were heard: tables and signatures.
+void compareValues(const ContactSignature& before, const ContactSignature& after) {
+  for (std::size_t i = 0; i < before.events.size(); ++i) {
+    const SignatureEvent &one = before.events[i], &other = after.events[i];
+    RC_ASSERT(other.weight == one.weight);
+    RC_ASSERT(std::abs(other.amplitude - one.amplitude) < 1e-8 * (1 + one.amplitude));
+    RC_ASSERT(std::abs(other.centroid - one.centroid) < kMicrosecond);
+  }
+}
+
+/// Other moments at which events may begin: signatures alone.
+void compareAlternatives(const ContactSignature& before, const ContactSignature& after) {
+  for (std::size_t i = 0; i < before.events.size(); ++i) {
+    const auto &one = before.events[i].alternatives, &other = after.events[i].alternatives;
+    RC_ASSERT(other.size() == one.size());
+    for (std::size_t k = 0; k < one.size(); ++k) {
+      RC_ASSERT(std::abs(other[k].time - one[k].time) < kMicrosecond);
+      RC_ASSERT(other[k].cost == one[k].cost);
+    }
+  }
+}
+
 class ReadsBack : public testing::TestWithParam<std::pair<std::string, int>> {};
 
 TEST_P(ReadsBack, TheSameSignatureToTheMicrosecond) {
   const auto& [name, rate] = GetParam();
+  const bool isSignature = name.ends_with(".json");
+  const bool hasValues = isSignature || name.ends_with("sv");
   const test::TemporaryFolder folder;
   const Sound sound = noise(rate);
   ASSERT_TRUE(writeWav(folder / "in.wav", sound));
@@ -58,15 +97,18 @@ TEST_P(ReadsBack, TheSameSignatureToTheMicrosecond) {
     RC_ASSERT(marks.has_value());
     const auto after = signatureFromLabels(sound, *marks);
     RC_ASSERT(after.has_value());
-    RC_ASSERT(after->terminal == before->terminal);
-    RC_ASSERT(after->events.size() == before->events.size());
-    RC_ASSERT(std::abs(after->firstContact - before->firstContact) < kMicrosecond);
-    for (std::size_t i = 0; i < before->events.size(); ++i) {
-      const SignatureEvent &one = before->events[i], &other = after->events[i];
-      // Both ends of a span may be rounded.
-      RC_ASSERT(std::abs(other.time - one.time) < kMicrosecond);
-      RC_ASSERT(std::abs(other.duration - one.duration) < kMicrosecond);
-      RC_ASSERT(other.weight == one.weight);
+    compareTimes(*before, *after);
+    if (hasValues) {
+      const auto alone = signatureWithoutSound(*marks, {}, name);
+      RC_ASSERT(alone.has_value());
+      for (const auto* signature : {&*after, &*alone}) {
+        compareTimes(*before, *signature);
+        compareValues(*before, *signature);
+        if (isSignature) compareAlternatives(*before, *signature);
+      }
+    } else {
+      // Who gives labels or cue points says that they are contacts.
+      for (const SignatureEvent& event : after->events) RC_ASSERT(event.weight == 1);
     }
   }));
 }

@@ -174,6 +174,48 @@ TEST(DetectContacts, WhatComesAfterTheLastAttackMayRiseLess) {
   EXPECT_NEAR(eased->back().start, 0.4, 0.001);
 }
 
+TEST(DetectContacts, TwoSoftHitsAreNoRattle) {
+  // Two rises of 4 dB, 25 ms apart, in the tail of the last contact.
+  const auto contacts = detectContacts(test::burstsInNoise(
+      {{0.1, 0.8}, {0.4, 0.5, 0.012}, {0.425, 0.2, 0.004}, {0.45, 0.025, 0.004}}, 0.8, 44100,
+      1e-4));
+  ASSERT_TRUE(contacts);
+  for (const DetectedContact& contact : *contacts) EXPECT_EQ(contact.end, contact.start);
+}
+
+/// Hits that get softer, the last ones hardly louder than the noise after them.
+std::vector<Burst> fadingHits() {
+  return {{0.2, 0.8}, {0.4, 0.4}, {0.55, 0.2}, {0.65, 0.1}, {0.72, 0.065}};
+}
+
+TEST(DetectContacts, ASoftLastContactIsHeardInSteadyNoise) {
+  DetectorSettings settings;
+  settings.falseAlarm = 0;
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+    const auto sound = test::burstsInNoise(fadingHits(), 2, 44100, 0.04, seed);
+    const auto strict = detectContacts(sound, settings), contacts = detectContacts(sound);
+    ASSERT_TRUE(strict && contacts);
+    EXPECT_EQ(strict->size(), 4U);
+    ASSERT_EQ(contacts->size(), 5U);
+    EXPECT_NEAR(contacts->back().start, 0.72, 0.002);
+    EXPECT_LT(contacts->back().rise, DetectorSettings().minRise);
+    EXPECT_GT(contacts->back().confidence, 0.5);
+    EXPECT_LE(contacts->back().confidence, 0.9) << "a motion may leave it out";
+    for (std::size_t i = 0; i < strict->size(); ++i) {
+      EXPECT_EQ((*contacts)[i].start, (*strict)[i].start);
+      EXPECT_EQ((*contacts)[i].end, (*strict)[i].end);
+    }
+  }
+}
+
+TEST(DetectContacts, NoiseAloneAddsNoSoftContact) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const auto contacts = detectContacts(test::burstsInNoise({{0.2, 0.8}}, 20, 44100, 0.05, seed));
+    ASSERT_TRUE(contacts);
+    EXPECT_EQ(contacts->size(), 1U);
+  }
+}
+
 TEST(DetectContacts, ARecordingThatBeginsAmidNoiseDoesNotBeginWithAContact) {
   for (const int rate : {16000, 44100}) {
     const auto contacts = detectContacts(test::burstsInNoise({{0.3}, {0.5}}, 1, rate, 0.1));
