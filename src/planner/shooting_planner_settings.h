@@ -44,8 +44,8 @@ struct ShootingPlannerSettings {
   /// A pass that finds nothing is gone on with so many times, from so many contacts before the last
   /// that it reached.
   int again = 2, againFrom = 3;
-  double goodScore = 0.9;         ///< enough to stop after the first pass, ...
-  double goodBend = 1.2;          ///< ... if no bend is over this
+  double goodScore = 0.9;  ///< enough to stop after the first pass, ...
+  double goodBend = 1.2;   ///< ... if no bend is over this
   /// Contacts before one that a pass did not get past, in which the next passes follow so many
   /// times the beam for so many contacts as they would go on by themselves, and what a rhythm that
   /// fits is worth in rank.
