@@ -88,10 +88,10 @@ TEST(Usage, FailureIsALineOfJsonWhereThatIsAskedFor) {
   EXPECT_EQ(result.exit, 2);
   const auto lines = linesOf(result.err);
   ASSERT_THAT(lines, SizeIs(1));
-  const auto json = nlohmann::json::parse(lines.front());
-  EXPECT_EQ(json.at("type"), "failure");
-  EXPECT_EQ(json.at("code"), 2);
-  EXPECT_THAT(json.at("message").get<std::string>(), testing::Not(IsEmpty()));
+  const auto failure = nlohmann::json::parse(lines.front());
+  EXPECT_EQ(failure.at("type"), "failure");
+  EXPECT_EQ(failure.at("code"), 2);
+  EXPECT_THAT(failure.at("message").get<std::string>(), testing::Not(IsEmpty()));
 }
 
 }  // namespace
