@@ -50,7 +50,7 @@ Novelty noveltyOf(const BandEnergies& energies, const DetectorSettings& settings
   for (const BandEnergy& band : energies.bands) {
     // What was there before the sound began, as far as can be told: so a recording that begins amid
     // noise does not begin with an attack.
-    const double unheard = lowestTenth(band, before);
+    const double unheard = lowestOf(band, before, 0.1);
     for (std::size_t k = 0; k < novelty.rise.size(); ++k) {
       const auto now = static_cast<std::ptrdiff_t>(k);
       const double ratio =
