@@ -8,7 +8,8 @@
 SOUNDS holds one folder per kind of sound, with NAME.wav and NAME.txt anywhere below. Labels and
 detected contacts are both merged at 10 ms before they are compared. In sounds that were made
 (make_sounds), a contact labelled "hidden" need not be found, and who finds it or a "blow" that is no
-contact by the definition is not wrong.
+contact by the definition is not wrong. --cross and --cross-windows need detect_settings beside the
+program.
 """
 import argparse
 import concurrent.futures
@@ -23,9 +24,9 @@ MERGE_GAP = 0.010
 END_TOLERANCE = 0.040
 RISES = [3, 3.5, 4, 4.5, 5, 5.25, 5.5, 5.75, 6, 6.5, 7, 8]  # what --cross chooses from, dB
 METHODS = ["energy", "hfc", "complex", "phase", "specdiff", "kl", "mkl", "specflux"]
+DEFAULT_WINDOW = (0.002, 0.008)  # --after and --before, s
 # What --cross-windows chooses from besides: steps of the detector's 0.25 ms, and of 0.5 ms.
-WINDOWS = [["--after", f"{after / 4e3:g}", "--before", f"{before / 2e3:g}"] for after in range(6, 13)
-           for before in range(12, 21)]
+WINDOWS = [(after / 4e3, before / 2e3) for after in range(6, 13) for before in range(12, 21)]
 HALVINGS = 200
 THRESHOLDS = [0.1, 0.3, 0.6, 1.0]
 
@@ -178,10 +179,20 @@ def print_aubio(cases, methods):
         print(best.row(f"aubio {method}, -t {threshold}"))
 
 
-def counted(program, case, options):
-    """Of one sound: found within 10 and 5 ms, labelled and detected together."""
-    score = scored([case], [detect(program, case.path, options)])
-    return score.found[0.010], score.found[0.005], score.labelled + score.detected
+def counted(program, case, settings):
+    """Of one sound, for each setting: found within 10 and 5 ms, labelled and detected together."""
+    tool = pathlib.Path(program).with_name("detect_settings")
+    lines = "".join(f"{rise:g} {after:g} {before:g}\n" for rise, after, before in settings)
+    done = subprocess.run([tool, str(case.path)], input=lines, capture_output=True, text=True, check=True)
+    counts, contacts = [], []
+    for line in done.stdout.split("\n")[:-1]:
+        if line:
+            contacts.append(tuple(map(float, line.split())))
+            continue
+        score = scored([case], [contacts])
+        counts.append((score.found[0.010], score.found[0.005], score.labelled + score.detected))
+        contacts = []
+    return counts
 
 
 def f_measures(counts, chosen):
@@ -198,10 +209,8 @@ def best_of(table, chosen):
 def print_cross(program, cases, windows):
     """What suits the even cases of the list best, reported on the odd ones, and back; then the same with
     halves drawn by lot, for two halves are only one draw."""
-    settings = [["--min-rise", str(rise), *window] for window in windows for rise in RISES]
-    table = []
-    for options in settings:
-        table.append(in_parallel(lambda c, o=options: counted(program, c, o), cases))
+    settings = [(rise, *window) for window in windows for rise in RISES]
+    table = list(zip(*in_parallel(lambda c: counted(program, c, settings), cases)))
     halves = [list(range(start, len(cases), 2)) for start in (0, 1)]
     if len(windows) == 1:
         print("\nF at 10 ms over --min-rise: " + ", ".join(
@@ -209,7 +218,8 @@ def print_cross(program, cases, windows):
             for rise, row in zip(RISES, table)))
     print(f"\nChosen among {len(settings)} settings\n" + HEADER)
     for chosen, name in ((0, "even"), (1, "odd")):
-        best = settings[best_of(table, halves[chosen])]
+        rise, after, before = settings[best_of(table, halves[chosen])]
+        best = ["--min-rise", f"{rise:g}", "--after", f"{after:g}", "--before", f"{before:g}"]
         for half, label in ((chosen, f"{name} half, chosen here: {' '.join(best)}"),
                             (1 - chosen, "the other half with it")):
             part = cases[half::2]
@@ -266,7 +276,7 @@ def main():
     if arguments.aubio is not None:
         print_aubio(cases, arguments.aubio or METHODS)
     if arguments.cross:
-        print_cross(arguments.program, cases, [[]])
+        print_cross(arguments.program, cases, [DEFAULT_WINDOW])
     if arguments.cross_windows:
         print_cross(arguments.program, cases, WINDOWS)
     if arguments.confidence:

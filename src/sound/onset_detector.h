@@ -32,7 +32,7 @@ struct DetectorSettings {
   double denseGap = 0.010;     ///< s; contacts at the end with a rise as often are one rattle
   double rattlePause = 0.070;  ///< s; so are those with no longer pause between the rises ...
   int rattleFill = 4;          ///< ... that part them, if these are as many; so many any rattle has
-  double falseAlarm = 1e-6;    ///< share of moments at which noise may rise like a soft contact
+  double falseAlarm = 1e-6;    ///< bound on how probably noise rises like a soft contact; 0: none
   double noiseEase = 3;        ///< dB of a rise that noise may hide
   double ringSlope = 1.0 / 3;  ///< dB more are asked for every dB that something rings above it
 };

@@ -13,25 +13,32 @@ double freedomOf(const BandEnergy& band, double seconds) {
   return std::max(1.0, 2 * band.width() * seconds);
 }
 
-/// What share of its mean the lowest tenth of a chi-square variable reaches (Wilson and Hilferty
+/// What share of its mean the lowest fiftieth of a chi-square variable reaches (Wilson and Hilferty
 /// 1931: its cube root is nearly normal).
-double lowestTenthOfNoise(double freedom) {
-  constexpr double kTenth = -1.2816;  // of a normal variable
+double lowestOfNoise(double freedom) {
+  constexpr double kFiftieth = -2.0537;  // of a normal variable
+  constexpr double kOfOne = 0.09;        // the cube root for one degree, where that is not near
   const double variance = 2 / (9 * freedom);
-  return std::pow(1 - variance + kTenth * std::sqrt(variance), 3);
+  return std::pow(std::max(kOfOne, 1 - variance + kFiftieth * std::sqrt(variance)), 3);
+}
+
+/// Energy of the noise that is always there. Decision: by the lowest fiftieth of what is heard; a
+/// tenth is more than some recordings have between their contacts.
+double noiseOf(const BandEnergy& band, std::ptrdiff_t window, double seconds) {
+  return lowestOf(band, window, 0.02) / lowestOfNoise(freedomOf(band, seconds));
 }
 
 }  // namespace
 
-double lowestTenth(const BandEnergy& band, std::ptrdiff_t window) {
+double lowestOf(const BandEnergy& band, std::ptrdiff_t window, double share) {
   std::vector<double> energies(band.hops());
   for (std::size_t k = 0; k < energies.size(); ++k) {
     const auto start = static_cast<std::ptrdiff_t>(k);
     energies[k] = band.mean(start, start + window);
   }
-  const auto tenth = energies.begin() + static_cast<std::ptrdiff_t>(energies.size() / 10);
-  std::nth_element(energies.begin(), tenth, energies.end());
-  return *tenth;
+  const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(energies.size()));
+  std::nth_element(energies.begin(), energies.begin() + place, energies.end());
+  return energies[static_cast<std::size_t>(place)];
 }
 
 double meanBefore(const BandEnergy& band, std::ptrdiff_t now, std::ptrdiff_t hops,
@@ -45,8 +52,7 @@ std::vector<double> unlikelyAsNoise(const BandEnergies& energies, const NoiseSet
   const auto after = energies.hopsIn(settings.after), before = energies.hopsIn(settings.before);
   std::vector<double> unlikely(energies.hops(), 0.0);
   for (const BandEnergy& band : energies.bands) {
-    const double noise =
-        lowestTenth(band, before) / lowestTenthOfNoise(freedomOf(band, settings.before));
+    const double noise = noiseOf(band, before, settings.before);
     if (noise < settings.floor) continue;
     const double halfFreedom = freedomOf(band, settings.after) / 2;
     for (std::size_t k = 0; k < unlikely.size(); ++k) {

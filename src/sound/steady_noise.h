@@ -9,8 +9,8 @@
 
 namespace ifa {
 
-/// The lowest tenth of a band's energies, each over `window` hops.
-[[nodiscard]] double lowestTenth(const BandEnergy& band, std::ptrdiff_t window);
+/// What the lowest `share` of a band's energies, each over `window` hops, do not exceed.
+[[nodiscard]] double lowestOf(const BandEnergy& band, std::ptrdiff_t window, double share);
 
 /// Mean energy over the `hops` before `now`, with `background` where the sound has not begun.
 [[nodiscard]] double meanBefore(const BandEnergy& band, std::ptrdiff_t now, std::ptrdiff_t hops,
