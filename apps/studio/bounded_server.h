@@ -3,10 +3,10 @@
 // before anything is known of its request, and one request a connection.
 #pragma once
 
-#include <httplib.h>
-
 #include <chrono>
 #include <cstddef>
+
+#include "studio/http.h"
 
 namespace ifa::studio {
 

@@ -2,14 +2,13 @@
 // One request and its answer, as routes see them.
 #pragma once
 
-#include <httplib.h>
-
 #include <cstddef>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "studio/http.h"
 #include "studio/refusal.h"
 
 namespace ifa::studio {

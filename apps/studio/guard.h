@@ -3,11 +3,10 @@
 // (docs/security.md).
 #pragma once
 
-#include <httplib.h>
-
 #include <cstddef>
 #include <string>
 
+#include "studio/http.h"
 #include "studio/refusal.h"
 
 namespace ifa::studio {

@@ -3,8 +3,6 @@
 // the page goes, so does the job.
 #pragma once
 
-#include <httplib.h>
-
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -12,6 +10,7 @@
 #include <vector>
 
 #include "studio/child_program.h"
+#include "studio/http.h"
 #include "studio/job_slots.h"
 
 namespace ifa::studio {

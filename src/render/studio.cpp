@@ -74,13 +74,13 @@ Studio::Studio(float azimuth, const Colour& floorAlbedo)
 }
 
 void Studio::integrate() {
-  constexpr int kSide = 32;
+  constexpr int kCells = 32;
   keyOnFloor_ = Colour::Zero();
-  for (int i = 0; i < kSide * kSide; ++i) {
-    const int column = i % kSide, row = i / kSide;
-    const Vector d = towardsKey((static_cast<float>(column) + 0.5f) / kSide,
-                                (static_cast<float>(row) + 0.5f) / kSide);
-    keyOnFloor_ += key(d) * d.z() / keyDensity(d) / (kSide * kSide);
+  for (int i = 0; i < kCells * kCells; ++i) {
+    const int column = i % kCells, row = i / kCells;
+    const Vector d = towardsKey((static_cast<float>(column) + 0.5f) / kCells,
+                                (static_cast<float>(row) + 0.5f) / kCells);
+    keyOnFloor_ += key(d) * d.z() / keyDensity(d) / (kCells * kCells);
   }
   skyOnFloor_ = Colour::Zero();
   overSphere([&](const Vector& d, float solid) {
