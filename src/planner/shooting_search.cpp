@@ -279,9 +279,9 @@ void ShootingSearch::keepBest(std::vector<ShootingNode>& candidates, double widt
   };
   const int perParent = share(set.perParent, parents.size());
   // A search that goes on from several kinds of motion is to end with all of them.
-  const int perRoot = begin_ > 0
-                          ? std::max(1, static_cast<int>(beam / static_cast<double>(roots.size())))
-                          : share(set.perRoot, roots.size());
+  const double ofEach = beam / static_cast<double>(std::max<std::size_t>(1, roots.size()));
+  const int perRoot =
+      begin_ > 0 ? std::max(1, static_cast<int>(ofEach)) : share(set.perRoot, roots.size());
   for (const ShootingNode& node : candidates) {
     if (kept.size() >= most) break;
     const double above = std::max(node.energyAfter - problem_.outlook.restEnergy(), 1e-12);
