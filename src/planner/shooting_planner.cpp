@@ -42,7 +42,9 @@ class ShootingRun {
     const double width = std::min(1.0, budget);
     const double most = settings_.mostPieces * request_.settings.effort;
     for (int pass = 0; pass < passes && !work_.spent() && !stop(); ++pass) {
-      if (static_cast<double>(pieces_) > most) break;
+      // Further takes have a price of their own.
+      const bool more = request_.settings.takes > 1 && !takes_.plans().empty();
+      if (!more && static_cast<double>(pieces_) > most) break;
       if (!goesOn(pass, passes, work_.width(std::min(settings_.widest, width + 0.5 * pass)))) break;
     }
     // What is moved would not be where it is asked to be.

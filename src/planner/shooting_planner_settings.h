@@ -40,7 +40,8 @@ struct ShootingPlannerSettings {
   double dropPenalty = 6;         ///< log units for an event of weight 1 that was dropped
   int passes = 10;                ///< searches with other seeds and wider beams, at most
   double widest = 2.5;            ///< no pass is wider than so many times the first
-  double mostPieces = 5e6;        ///< of motion simulated, after which no other pass begins
+  /// Of motion simulated, after which no other pass begins, but for further takes.
+  double mostPieces = 5e6;
   /// A pass that finds nothing is gone on with so many times, from so many contacts before the last
   /// that it reached.
   int again = 2, againFrom = 3;
