@@ -89,10 +89,17 @@ class ShootingRun {
     const ShootingNode* farthest = search.farthest();
     if (farthest == nullptr || farthest->level <= settings_.againFrom) return;
     const auto level = static_cast<std::size_t>(farthest->level - settings_.againFrom);
-    ShootingSearch more(search, kResumed + resumed_++, wide, level, search.kept(level));
+    goOn(search, wide, level, search.kept(level));
+  }
+
+  /// Searches on from `beam`, motions that the pass kept at `level`, with other random numbers.
+  ShootingSearch goOn(const ShootingSearch& search, double wide, std::size_t level,
+                      std::vector<ShootingNode> beam) {
+    ShootingSearch more(search, kResumed + resumed_++, wide, level, std::move(beam));
     more.run([this] { return stop(); }, [](double) {});
     pieces_ += more.work();
     takes_.add(more);
+    return more;
   }
 
   /// Goes on from where the pass had motions that would make other takes, as long as some do.
@@ -105,10 +112,7 @@ class ShootingRun {
       const double share = shareAfter(lineages.level);
       const double width = std::min(wide, work_.left() / share);
       if (lineages.ways == 0 || width < kNarrowest * wide) return;
-      ShootingSearch more(search, kResumed + resumed_++, width, lineages.level,
-                          std::move(lineages.beam));
-      more.run([this] { return stop(); }, [](double) {});
-      takes_.add(more);
+      const ShootingSearch more = goOn(search, width, lineages.level, std::move(lineages.beam));
       // What died on its way has cost less.
       const ShootingNode* farthest = more.farthest();
       const int reached = farthest != nullptr ? farthest->level + 1 : 0;
