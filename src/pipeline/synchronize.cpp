@@ -33,10 +33,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Where no motion is found otherwise: share of its energy that a contact may add, share by which
-/// what lies between two of them may be faster or slower (IFA 5.3.2: under 0.3), and the work that
-/// such a motion is worth, where one plan costs 1.
-constexpr double kEasedGain = 0.1, kEasedWarp = 0.29, kEasedEffort = 5;
+/// Where no motion is found otherwise, time may be warped besides: share of its energy that a
+/// contact may add, and the work that such a motion is worth, where one plan costs 1.
+constexpr double kEasedGain = 0.1, kEasedEffort = 5;
 
 // All that the search needs, and what the files are made of afterwards.
 struct Job {

@@ -75,7 +75,7 @@ PlausibleRegion MovedLandings::regionOf(const PlannedContact& contact) const {
 void MovedLandings::addFlight(std::size_t k) {
   const PlannedContact &from = plan_.contacts[k], &to = plan_.contacts[k + 1];
   Flight flight;
-  flight.time = to.time - from.time - from.event.end;
+  flight.time = (to.time - from.time - from.event.end) / to.retiming;
   const Vector3d velocity = from.event.after.velocity + from.velocityChange;
   flight.velocity = from.placement.direction(velocity).head<2>();
   flight.leaving = {from, regionOf(from), from.velocityChange, from.angularVelocityChange};
@@ -87,7 +87,7 @@ void MovedLandings::addFlight(std::size_t k) {
   flight.ease = squaredTime * cost.inverse();
   const Vector2d side = across(flight.velocity);
   flight.sideways = squaredTime / side.dot(cost * side) * side * side.transpose();
-  const bool flies = to.arrival == Arrival::kFlight && to.retiming == 1 && flight.time > 0;
+  const bool flies = to.arrival == Arrival::kFlight && flight.time > 0;
   flight.free = flies && flight.ease.allFinite() && flight.sideways.allFinite();
   flights_.push_back(flight);
 }

@@ -28,6 +28,9 @@ namespace ifa {
 /// The Score at which the paper's search ends (IFA 5.5, "early exit").
 inline constexpr double kGoodScore = 0.3;
 
+/// By how much time may be warped where nothing else helps: the limit of IFA 5.3.2 is 30 %.
+inline constexpr double kEasedWarp = 0.29;
+
 /// What the user may set for any planner.
 struct PlannerSettings {
   std::uint64_t seed = 1;

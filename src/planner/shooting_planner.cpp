@@ -16,11 +16,17 @@ namespace ifa {
 
 namespace {
 
-/// Sounds of so few contacts are short: what makes another take of them begins at the first ones.
-constexpr std::size_t kShort = 8;
 /// What all takes together may cost in work, where one costs 1. It is not all of twice the price,
-/// since the same width does not always cost the same; and where little comes of it, less.
-constexpr double kPrice = 1.6, kPriceOfShort = 1.85;
+/// since what is counted does not always take the same time.
+constexpr double kPrice = 1.75;
+/// Of a pass, at least so much is made for further takes.
+constexpr double kNarrowestPass = 0.25;
+/// Searches that go on from a pass are by so much narrower, and find little below the second.
+constexpr double kNarrower = 0.35, kNarrowest = 0.12;
+/// With time warped, as much work takes so many times as long.
+constexpr double kWarpedCost = 1.3;
+/// The last contacts but one are too late to find another way to rest.
+constexpr std::size_t kTooLate = 2;
 
 /// One call of plan().
 class ShootingRun {
@@ -32,7 +38,7 @@ class ShootingRun {
         progress_(progress),
         problem_(request, settings),
         takes_(problem_),
-        work_(isShort() ? kPriceOfShort : kPrice),
+        work_(kPrice),
         hard_(problem_.targets.size(), false) {}
 
   Result<std::vector<Plan>> run() {
@@ -41,11 +47,12 @@ class ShootingRun {
     const int passes = std::max(1, static_cast<int>(std::lround(budget)));
     const double width = std::min(1.0, budget);
     const double most = settings_.mostPieces * request_.settings.effort;
-    for (int pass = 0; pass < passes && !work_.spent() && !stop(); ++pass) {
+    for (int pass = 0; pass < passes && !stop(); ++pass) {
       // Further takes have a price of their own.
       const bool more = request_.settings.takes > 1 && !takes_.plans().empty();
       if (!more && static_cast<double>(pieces_) > most) break;
-      if (!goesOn(pass, passes, work_.width(std::min(settings_.widest, width + 0.5 * pass)))) break;
+      const double wide = work_.width(std::min(settings_.widest, width + 0.5 * pass));
+      if ((work_.priced() && wide < kNarrowestPass) || !goesOn(pass, passes, wide)) break;
     }
     // What is moved would not be where it is asked to be.
     const bool moves = request_.positions.empty();
@@ -63,72 +70,69 @@ class ShootingRun {
     return cut_ || progress_.stopRequested();
   }
 
-  [[nodiscard]] bool isShort() const { return problem_.targets.size() <= kShort; }
-
   /// Makes a pass; whether another one may help.
   bool goesOn(int pass, int passes, double wide) {
     ShootingSearch search(problem_, static_cast<std::uint64_t>(pass), wide, hard_);
     search.run([this] { return stop(); },
                [&](double share) { progress_("search", (pass + share) / passes); });
     pieces_ += search.work();
+    work_.count(search.cost());
     takes_.add(search);
     for (int i = 0; i < settings_.again && takes_.plans().empty() && !stop(); ++i) {
-      searchAgain(search, wide);
+      work_.count(searchAgain(search, wide));
     }
     const bool found = !takes_.plans().empty();
     if (!found && !learnsFrom(search) && pass > 0) return false;
     const bool one = found && (pass > 0 || isGood(takes_.plans()[0]));
-    work_.count(wide, one);
-    if (one && !isShort()) resume(search, wide);
-    return !(one && takes_.enough());
+    work_.passed(wide, one);
+    if (one && takes_.missing() > 0) resume(search, wide);
+    return !(one && takes_.missing() == 0);
   }
 
   /// Goes on with other random numbers from a little before the contact that the pass did not get
   /// past: what came before that is not paid for again.
-  void searchAgain(const ShootingSearch& search, double wide) {
+  double searchAgain(const ShootingSearch& search, double wide) {
     const ShootingNode* farthest = search.farthest();
-    if (farthest == nullptr || farthest->level <= settings_.againFrom) return;
+    if (farthest == nullptr || farthest->level <= settings_.againFrom) return 0;
     const auto level = static_cast<std::size_t>(farthest->level - settings_.againFrom);
-    goOn(search, wide, level, search.kept(level));
+    return goOn(problem_, search, wide, level, search.kept(level));
   }
 
   /// Searches on from `beam`, motions that the pass kept at `level`, with other random numbers.
-  ShootingSearch goOn(const ShootingSearch& search, double wide, std::size_t level,
-                      std::vector<ShootingNode> beam) {
-    ShootingSearch more(search, kResumed + resumed_++, wide, level, std::move(beam));
+  /// Returns what it costs.
+  double goOn(const ShootingProblem& problem, const ShootingSearch& search, double wide,
+              std::size_t level, std::vector<ShootingNode> beam) {
+    ShootingSearch more(problem, search, kResumed + resumed_++, wide, level, std::move(beam));
     more.run([this] { return stop(); }, [](double) {});
     pieces_ += more.work();
     takes_.add(more);
-    return more;
+    return more.cost();
   }
 
-  /// Goes on from where the pass had motions that would make other takes, as long as some do.
+  /// Goes on from where the pass had motions that would make other takes, with time warped: first
+  /// beside those that were found, then from those as well, then from earlier.
   void resume(const ShootingSearch& search, double wide) {
-    for (std::size_t before = 0; !takes_.enough() && !stop();) {
-      before = takes_.plans().size();
-      const std::size_t missing = static_cast<std::size_t>(request_.settings.takes) - before;
-      TakeLineages lineages =
-          lineagesBeside(takes_.plans(), search, settings_.waysPerTake * missing);
-      const double share = shareAfter(lineages.level);
-      const double width = std::min(wide, work_.left() / share);
-      if (lineages.ways == 0 || width < kNarrowest * wide) return;
-      const ShootingSearch more = goOn(search, width, lineages.level, std::move(lineages.beam));
-      // What died on its way has cost less.
-      const ShootingNode* farthest = more.farthest();
-      const int reached = farthest != nullptr ? farthest->level + 1 : 0;
-      const auto after = std::min(static_cast<std::size_t>(reached), search.levels() - 1);
-      work_.count(width * (share - shareAfter(after)), true);
-      if (takes_.plans().size() == before) return;
+    PlanRequest request = request_;
+    request.settings.timeWarp = std::max(request.settings.timeWarp, kEasedWarp);
+    ShootingProblem warped(problem_, request);
+    // It counts in full here: a further take is missed less than a motion.
+    warped.settings.warpWeight = 1;
+    const std::size_t last = search.levels() > kTooLate ? search.levels() - kTooLate : 0;
+    std::size_t before = last;
+    bool beside = true;
+    while (takes_.missing() > 0 && !stop()) {
+      const std::size_t missing = takes_.missing(), found = takes_.plans().size();
+      TakeLineages lineages = lineagesBeside(beside ? takes_.plans() : std::vector<Plan>{}, search,
+                                             settings_.waysPerTake * missing, before);
+      const double full = kWarpedCost * search.costFrom(lineages.level);
+      const double width = std::min(kNarrower, work_.left() / full);
+      if (lineages.ways == 0 || width < kNarrowest) return;
+      work_.count(kWarpedCost *
+                  goOn(warped, search, width * wide, lineages.level, std::move(lineages.beam)));
+      if (takes_.missing() < missing || takes_.plans().size() > found) continue;
+      if (!beside) before = lineages.level;
+      beside = !beside;
     }
-  }
-
-  /// How much of a pass's work comes after a level.
-  [[nodiscard]] double shareAfter(std::size_t level) const {
-    const auto after = [&](std::size_t k) {
-      const int contacts = static_cast<int>(problem_.targets.size() - 1 - k);
-      return contacts + (settings_.lastFactor - 1) * std::min(settings_.lastContacts, contacts);
-    };
-    return static_cast<double>(after(level)) / std::max(1, after(0));
   }
 
   [[nodiscard]] bool isGood(const Plan& plan) const {
@@ -178,8 +182,6 @@ class ShootingRun {
   TakesBudget work_;
   /// Numbers of searches that go on from a pass, among those of passes.
   static constexpr std::uint64_t kResumed = 1000;
-  /// Narrower than this share of the pass, they find little.
-  static constexpr double kNarrowest = 0.4;
   std::uint64_t resumed_ = 0;
   long pieces_ = 0;         ///< simulated so far
   std::vector<bool> hard_;  ///< ShootingSearch's

@@ -97,6 +97,7 @@ std::optional<Eigen::Vector2d> ShootingWorker::steeredTo(const ShootingNode& nod
 double ShootingWorker::flightCost(const ShootingNode& node, int level, double duration) const {
   const double mostEnergy = node.energyBefore * (1 + settings().energyGain);
   const PlausibleRegion region = regionOf(node.event);
+  ++flights_;
   const auto flight = timeFlight(problem_.model, node.event.after, region, Coordinates::Zero(),
                                  duration, mostEnergy, steeredTo(node, level, region, duration, 1));
   if (!flight) return problem_.settings.hopeless;

@@ -91,6 +91,20 @@ ShootingProblem::ShootingProblem(const PlanRequest& planned, const ShootingPlann
   if (planned.database != nullptr && aiming) aim();
 }
 
+ShootingProblem::ShootingProblem(const ShootingProblem& other, const PlanRequest& planned)
+    : request(planned),
+      settings(other.settings),
+      model(other.model),
+      recorder(other.recorder),
+      wishes(other.wishes),
+      places(other.places),
+      outlook(other.outlook),
+      targets(other.targets),
+      features(other.features),
+      group(other.group),
+      aims(other.aims),
+      starts(other.starts) {}
+
 void ShootingProblem::aim() {
   const EventDatabase& database = *request.database;
   if (request.settings.symmetry) group = request.symmetry;
@@ -130,11 +144,13 @@ ShootingSearch::ShootingSearch(const ShootingProblem& problem, std::uint64_t pas
       hard_(std::move(hard)),
       firstHard_(firstOf(hard_)),
       levels_(problem.targets.size()),
-      deaths_(problem.targets.size()) {}
+      deaths_(problem.targets.size()),
+      costBefore_(problem.targets.size()) {}
 
-ShootingSearch::ShootingSearch(const ShootingSearch& other, std::uint64_t pass, double width,
-                               std::size_t level, std::vector<ShootingNode> beam)
-    : ShootingSearch(other.problem_, pass, width, other.hard_) {
+ShootingSearch::ShootingSearch(const ShootingProblem& problem, const ShootingSearch& other,
+                               std::uint64_t pass, double width, std::size_t level,
+                               std::vector<ShootingNode> beam)
+    : ShootingSearch(problem, pass, width, other.hard_) {
   begin_ = level;
   std::copy_n(other.levels_.begin(), level, levels_.begin());
   levels_[level] = std::move(beam);
@@ -145,6 +161,7 @@ void ShootingSearch::run(const std::function<bool()>& stop,
   if (begin_ == 0) plantRoots(stop);
   const std::size_t n = levels_.size();
   for (std::size_t level = begin_; level < n && !stop(); ++level) {
+    costBefore_[level] = cost();
     if (level + 1 == n) {
       complete_ = levels_[level];
       keepComplete(complete_, problem_.request.settings.takes);
@@ -175,7 +192,7 @@ void ShootingSearch::plantRoots(const std::function<bool()>& stop) {
   const std::size_t sampled = fresh + late, count = sampled + problem_.starts.size(),
                     batches = (count + kBatch - 1) / kBatch;
   std::vector<std::vector<ShootingNode>> made(batches);
-  std::atomic<long> work = 0;
+  std::atomic<long> work = 0, flights = 0;
   parallelFor(batches, [&](std::size_t batch) {
     if (stop()) return;
     ShootingWorker worker(problem_);
@@ -189,8 +206,10 @@ void ShootingSearch::plantRoots(const std::function<bool()>& stop) {
     }
     made[batch] = std::move(worker.children);
     work += worker.work();
+    flights += worker.flights();
   });
   work_ += work;
+  flights_ += flights;
   for (auto& nodes : made) levels_[0].insert(levels_[0].end(), nodes.begin(), nodes.end());
 }
 
@@ -219,6 +238,7 @@ void ShootingSearch::expandLevel(std::size_t level, const std::function<bool()>&
       for (ShootingWorker& worker : workers) {
         deaths_[level] += worker.deaths;
         work_ += worker.work();
+        flights_ += worker.flights();
         auto& to = levels_[next];
         to.insert(to.end(), worker.children.begin(), worker.children.end());
       }
@@ -296,7 +316,18 @@ void ShootingSearch::keepBest(std::vector<ShootingNode>& candidates, double widt
     ++energy;
     kept.push_back(node);
   }
-  candidates = std::move(kept);
+  candidates = begin_ > 0 ? inTurns(kept) : std::move(kept);
+}
+
+/// What costs most is tried on the first motions of a beam only: the best of each kind come first,
+/// then the second best of each.
+std::vector<ShootingNode> ShootingSearch::inTurns(const std::vector<ShootingNode>& nodes) {
+  std::map<unsigned, int> seen;
+  std::multimap<int, ShootingNode> ordered;
+  for (const ShootingNode& node : nodes) ordered.emplace(seen[node.root]++, node);
+  std::vector<ShootingNode> sorted;
+  for (auto& [turn, node] : ordered) sorted.push_back(std::move(node));
+  return sorted;
 }
 
 const ShootingNode* ShootingSearch::farthest() const {

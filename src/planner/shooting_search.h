@@ -23,6 +23,8 @@ namespace ifa {
 /// Everything that is the same for all passes of one plan.
 struct ShootingProblem {
   ShootingProblem(const PlanRequest& planned, const ShootingPlannerSettings& tuning);
+  /// The same, planned by a request that differs in its settings alone.
+  ShootingProblem(const ShootingProblem& other, const PlanRequest& planned);
 
   const PlanRequest& request;
   ShootingPlannerSettings settings;
@@ -88,8 +90,9 @@ class ShootingSearch {
 
   /// Goes on from `beam`: motions that `other` kept at `level`, `root` telling which of them are of
   /// one kind. Each kind has the same share of the work.
-  ShootingSearch(const ShootingSearch& other, std::uint64_t pass, double width, std::size_t level,
-                 std::vector<ShootingNode> beam);
+  /// @param problem  that of `other`, or the same with other settings
+  ShootingSearch(const ShootingProblem& problem, const ShootingSearch& other, std::uint64_t pass,
+                 double width, std::size_t level, std::vector<ShootingNode> beam);
 
   /// Searches; `stop` is asked between batches and ends the search early.
   void run(const std::function<bool()>& stop, const std::function<void(double)>& progress);
@@ -109,16 +112,25 @@ class ShootingSearch {
   [[nodiscard]] std::vector<ShootingNode> path(const ShootingNode& node) const;
   /// Counted work (ShootingWorker::work).
   [[nodiscard]] long work() const { return work_; }
+  /// What that and the flights that were timed cost, in the time that a piece takes.
+  [[nodiscard]] double cost() const { return cost(work_, flights_); }
+  /// What of it was spent from a level on.
+  [[nodiscard]] double costFrom(std::size_t level) const { return cost() - costBefore_[level]; }
   [[nodiscard]] const ShootingDeaths& deathsAfter(int level) const {
     return deaths_[static_cast<std::size_t>(level)];
   }
 
  private:
+  [[nodiscard]] static double cost(long work, long flights) {
+    constexpr double kFlight = 12;  // by instructions counted
+    return static_cast<double>(work) + kFlight * static_cast<double>(flights);
+  }
   void plantRoots(const std::function<bool()>& stop);
   void expandLevel(std::size_t level, const std::function<bool()>& stop);
   [[nodiscard]] double widthAt(std::size_t level) const;
   /// @param wider  how many times the beam of this width
   void keepBest(std::vector<ShootingNode>& candidates, double width, double wider) const;
+  [[nodiscard]] static std::vector<ShootingNode> inTurns(const std::vector<ShootingNode>& nodes);
   void followOn(std::vector<ShootingNode>& nodes, std::size_t level);
 
   const ShootingProblem& problem_;
@@ -131,6 +143,8 @@ class ShootingSearch {
   std::vector<ShootingDeaths> deaths_;             ///< on the way out of each level
   std::vector<ShootingNode> complete_;
   long work_ = 0;
+  long flights_ = 0;
+  std::vector<double> costBefore_;  ///< each level
 };
 
 }  // namespace ifa

@@ -52,20 +52,36 @@ bool Takes::isAccepted(Plan& plan) {
   return false;
 }
 
+double Takes::goodScore() const {
+  return std::max(kLeastScore, plans_.empty() ? 0 : kGoodShare * plans_[0].score);
+}
+
+std::size_t Takes::missing() const {
+  const double good = goodScore();
+  const auto found = std::count_if(plans_.begin(), plans_.end(),
+                                   [&](const Plan& plan) { return plan.score >= good; });
+  return wanted() - static_cast<std::size_t>(found);
+}
+
 void Takes::move() {
-  const double leastScore = std::max(kLeastScore, kGoodShare * plans_[0].score);
-  const auto poor = std::stable_partition(
-      plans_.begin(), plans_.end(), [&](const Plan& plan) { return plan.score >= leastScore; });
+  const double good = goodScore();
+  const auto poor = std::stable_partition(plans_.begin(), plans_.end(),
+                                          [&](const Plan& plan) { return plan.score >= good; });
   std::vector<Plan> rest(poor, plans_.end());
   plans_.erase(poor, plans_.end());
+  moveAll(good);
+  for (Plan& plan : rest) addIfNew(plan);
+  moveAll(kLeastScore);
+  sort(plans_);
+}
+
+void Takes::moveAll(double leastScore) {
   // What was moved can be moved again.
   for (std::size_t first = 0; first < plans_.size() && !enough();) {
     const std::size_t next = plans_.size();
     moveFrom(first, leastScore);
     first = next;
   }
-  for (Plan& plan : rest) addIfNew(plan);
-  sort(plans_);
 }
 
 /// Adds what can be made of the takes from number `first` on.

@@ -27,6 +27,8 @@ class Takes {
   void move();
 
   [[nodiscard]] bool enough() const { return plans_.size() >= wanted(); }
+  /// How many are missing, or much worse than the best.
+  [[nodiscard]] std::size_t missing() const;
   [[nodiscard]] std::vector<Plan>& plans() { return plans_; }
   /// Whether a motion did not hold its audit.
   [[nodiscard]] bool refused() const { return refused_ > 0; }
@@ -35,6 +37,8 @@ class Takes {
   [[nodiscard]] std::size_t wanted() const {
     return static_cast<std::size_t>(problem_.request.settings.takes);
   }
+  [[nodiscard]] double goodScore() const;
+  void moveAll(double leastScore);
   void moveFrom(std::size_t first, double leastScore);
   void addIfNew(Plan& plan);
   [[nodiscard]] bool isAccepted(Plan& plan);
@@ -44,25 +48,27 @@ class Takes {
   int refused_ = 0;
 };
 
-/// How much work is left for more takes than one. It is counted in widths of passes.
+/// How much work is left for more takes than one, counted as ShootingSearch::cost.
 class TakesBudget {
  public:
   /// @param times  all takes together may cost so many times what one does
   explicit TakesBudget(double times) : times_(times) {}
-  [[nodiscard]] double width(double planned) const {
-    return price_ > 0 ? std::min(planned, left()) : planned;
-  }
+  /// Whether it is known what one costs.
+  [[nodiscard]] bool priced() const { return price_ > 0; }
   [[nodiscard]] double left() const { return times_ * price_ - work_; }
-  [[nodiscard]] bool spent() const { return price_ > 0 && left() < kNarrowest; }
-  /// So much more was done. @param one  whether a single take would be settled by now
-  void count(double width, bool one) {
-    work_ += width;
-    if (one && price_ == 0) price_ = work_;
+  /// How wide the next pass may be, one of `planned` costing as much for its width as those so far.
+  [[nodiscard]] double width(double planned) const {
+    return priced() ? std::min(planned, left() * widths_ / work_) : planned;
+  }
+  void count(double cost) { work_ += cost; }
+  /// A pass was made. @param one  whether a single take would be settled by now
+  void passed(double width, bool one) {
+    widths_ += width;
+    if (one && !priced()) price_ = work_;
   }
 
  private:
-  static constexpr double kNarrowest = 0.25;
-  double times_, work_ = 0, price_ = 0;
+  double times_, work_ = 0, widths_ = 0, price_ = 0;
 };
 
 }  // namespace ifa

@@ -33,6 +33,7 @@ void ShootingWorker::shootAimed(const ShootingNode& node, const ShootingNode& ch
   const auto tries = static_cast<std::size_t>(problem_.settings.aimedTries);
   for (const Aim& aim :
        problem_.aims[level].best(problem_.model, source, tries, problem_.settings.aimedCost)) {
+    ++flights_;
     const auto flight = aimFlight(problem_.model, node.event.after, region, duration, aim.key.up);
     if (!flight || flight->energy > mostEnergy || flight->bend > settings().bendCap ||
         child.worth() + logVelocity(flight->bend) <= bound) {

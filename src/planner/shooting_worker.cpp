@@ -177,6 +177,7 @@ void ShootingWorker::shoot(const ShootingNode& node, ShootingNode child,
                            const TimeWarp& time, double eager, double restitution, double bound) {
   const double duration = time.flightTime;
   const double mostEnergy = node.energyBefore * (1 + settings().energyGain);
+  ++flights_;
   const auto flight = timeFlight(problem_.model, node.event.after, region, wish, duration,
                                  mostEnergy, steeredTo(node, child.level, region, duration, eager));
   if (!flight) {
@@ -251,6 +252,7 @@ void ShootingWorker::shootAhead(const ShootingNode& node, const ShootingNode& ch
   std::optional<Touch> touch;
   const auto probe = [&](const Coordinates& y) {
     const SilentProbe never{y, kNever, Eigen::Vector3d::Zero()};
+    ++flights_;
     flight = timeFlight(problem_.model, node.event.after, region, y, duration, mostEnergy);
     if (!flight || flight->bend > settings().bendCap || flight->energy > mostEnergy) return never;
     touch = firstTouch(problem_.model, flight->departure, duration + 1e-3);

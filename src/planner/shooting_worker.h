@@ -33,6 +33,8 @@ class ShootingWorker {
 
   /// Counted work so far: pieces of motion that were simulated.
   [[nodiscard]] long work() const { return simulation_.pieces(); }
+  /// Flights that were timed so far.
+  [[nodiscard]] long flights() const { return flights_; }
 
   std::vector<ShootingNode> children;
   ShootingDeaths deaths;
@@ -99,6 +101,7 @@ class ShootingWorker {
 
   const ShootingProblem& problem_;
   mutable EventSimulation simulation_;
+  mutable long flights_ = 0;
   std::vector<ContactEvent> outcomes_;
 };
 

@@ -43,11 +43,10 @@ TakeLineages lineagesAt(std::size_t level, const std::vector<Plan>& found,
 }  // namespace
 
 TakeLineages lineagesBeside(const std::vector<Plan>& found, const ShootingSearch& search,
-                            std::size_t wanted) {
+                            std::size_t wanted, std::size_t before) {
   TakeLineages best;
-  // The last contacts but one are too late to find another way to rest.
-  for (std::size_t level = search.levels(); level-- > 3 && best.ways < wanted;) {
-    TakeLineages here = lineagesAt(level - 2, found, search);
+  for (std::size_t level = before; level-- > 1 && best.ways < wanted;) {
+    TakeLineages here = lineagesAt(level, found, search);
     if (here.ways > best.ways) best = std::move(here);
   }
   return best;

@@ -19,8 +19,9 @@ struct TakeLineages {
   std::vector<ShootingNode> beam;
 };
 
-/// Those of the last level that has `wanted` ways, or of the one that has most.
+/// Those of the last level before `before` that has `wanted` ways, or of the one that has most.
 [[nodiscard]] TakeLineages lineagesBeside(const std::vector<Plan>& found,
-                                          const ShootingSearch& search, std::size_t wanted);
+                                          const ShootingSearch& search, std::size_t wanted,
+                                          std::size_t before);
 
 }  // namespace ifa

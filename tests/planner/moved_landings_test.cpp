@@ -50,7 +50,8 @@ class MovedLandingsTest : public testing::Test {
     const PlannedContact& from = plan.contacts[k];
     RigidState state = from.event.after;
     state.velocity += from.velocityChange;
-    const double time = plan.contacts[k + 1].time - from.time - from.event.end;
+    const PlannedContact& to = plan.contacts[k + 1];
+    const double time = (to.time - from.time - from.event.end) / to.retiming;
     state = from.placement.apply(state);
     state.position += time * state.velocity - Vector3d(0, 0, 0.5 * kGravity * time * time);
     state.velocity.z() -= kGravity * time;
@@ -62,9 +63,26 @@ class MovedLandingsTest : public testing::Test {
   Plan plan_;
 };
 
-TEST_F(MovedLandingsTest, FlightsEndWhereTheNextContactBegins) {
+/// The plan, its flights shown slower than they are, or faster.
+Plan retimed(Plan plan, double by) {
+  double later = 0;
+  for (std::size_t k = 1; k < plan.contacts.size(); ++k) {
+    const PlannedContact& from = plan.contacts[k - 1];
+    PlannedContact& to = plan.contacts[k];
+    to.time += later;
+    const double gap = to.time - from.time - from.event.end;
+    to.time += (by - 1) * gap;
+    later += (by - 1) * gap;
+    to.retiming = by;
+  }
+  return plan;
+}
+
+class MovedFlights : public MovedLandingsTest, public testing::WithParamInterface<double> {};
+
+TEST_P(MovedFlights, EndWhereTheNextContactBegins) {
   const ShootingProblem problem(request_, settings_);
-  const MovedLandings landings(problem, plan_);
+  const MovedLandings landings(problem, retimed(plan_, GetParam()));
   int moved = 0;
   for (const MovedLanding& landing : landings.proposals()) {
     const auto plan = landings.moved(landing);
@@ -83,6 +101,8 @@ TEST_F(MovedLandingsTest, FlightsEndWhereTheNextContactBegins) {
   }
   EXPECT_GT(moved, 3);
 }
+
+INSTANTIATE_TEST_SUITE_P(Retimed, MovedFlights, testing::Values(1.0, 1.2, 0.8));
 
 TEST_F(MovedLandingsTest, ContactsStayAsTheyWereAndLieElsewhere) {
   const ShootingProblem problem(request_, settings_);

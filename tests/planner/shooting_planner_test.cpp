@@ -261,12 +261,15 @@ TEST(ShootingPlannerTest, EightTakesOfManyContactsForAnyNumberOfThreads) {
   setThreadCount(2);
   const auto others = plansOf(request);
   setThreadCount(0);
-  ASSERT_GE(plans.size(), 5U);  // all of the eight, but for bad luck
+  ASSERT_EQ(plans.size(), 8U);
   ASSERT_EQ(others.size(), plans.size());
   for (std::size_t i = 0; i < plans.size(); ++i) {
     EXPECT_TRUE(samePlan(plans[i], others[i]));
     EXPECT_TRUE(plans[i].solved);
     EXPECT_GE(plans[i].score, 0.5);
+    for (const PlannedContact& contact : plans[i].contacts) {
+      EXPECT_LT((TimeWarp{1, contact.retiming}.amount()), 0.3);
+    }
     for (std::size_t j = 0; j < i; ++j) {
       EXPECT_TRUE(differentTakes(plans[i], plans[j]));
       EXPECT_LE(plans[i].worth, plans[j].worth);

@@ -26,6 +26,9 @@ class TakeLineagesTest : public testing::Test {
     if (search_->complete().empty()) return;
     found_.push_back(planOf(*problem_, search_->path(search_->complete().front())));
   }
+  [[nodiscard]] TakeLineages beside(std::size_t wanted) const {
+    return lineagesBeside(found_, *search_, wanted, search_->levels() - 2);
+  }
   void SetUp() override { ASSERT_FALSE(found_.empty()); }
 
   PlanRequest request_;
@@ -36,7 +39,7 @@ class TakeLineagesTest : public testing::Test {
 };
 
 TEST_F(TakeLineagesTest, NoneGoesTheWayOfATakeThatWasFound) {
-  const TakeLineages lineages = lineagesBeside(found_, *search_, 5);
+  const TakeLineages lineages = beside(5);
   ASSERT_GT(lineages.ways, 0U);
   Plan part = found_[0];
   part.contacts.resize(lineages.level + 1);
@@ -50,17 +53,17 @@ TEST_F(TakeLineagesTest, NoneGoesTheWayOfATakeThatWasFound) {
 }
 
 TEST_F(TakeLineagesTest, TheMoreWaysAreWantedTheEarlierTheLevel) {
-  const TakeLineages few = lineagesBeside(found_, *search_, 2);
-  const TakeLineages many = lineagesBeside(found_, *search_, 12);
+  const TakeLineages few = beside(2);
+  const TakeLineages many = beside(12);
   EXPECT_GE(few.ways, 2U);
   EXPECT_GE(many.ways, few.ways);
   EXPECT_LE(many.level, few.level);
 }
 
 TEST_F(TakeLineagesTest, ASearchThatGoesOnKeepsWhatWasBefore) {
-  TakeLineages lineages = lineagesBeside(found_, *search_, 5);
+  TakeLineages lineages = beside(5);
   const std::vector<ShootingNode> beam = lineages.beam;
-  ShootingSearch more(*search_, 1000, 1, lineages.level, std::move(lineages.beam));
+  ShootingSearch more(*problem_, *search_, 1000, 1, lineages.level, std::move(lineages.beam));
   more.run([] { return false; }, [](double) {});
   const ShootingNode* farthest = more.farthest();
   ASSERT_NE(farthest, nullptr);
