@@ -4,12 +4,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <set>
 
 #include "command.h"
+#include "connection/time_warp.h"
 #include "graph_options.h"
 #include "ifa/synchronize.h"
 #include "orient_option.h"
@@ -95,23 +97,28 @@ void showDoubtfulMarks(Console& console, const Motion& motion) {
   }
 }
 
-// By how much nature was helped where nothing else was found.
-void showEasing(Console& console, const Motion& motion) {
+// By how much nature was helped where nothing else was found. Of "graph" every passage is warped.
+void showEasing(Console& console, const Motion& motion, bool energyAsked) {
   double warp = 0;
   for (const MotionContact& contact : motion.contacts) {
-    warp = std::max(warp, std::max(contact.retiming, 1 / contact.retiming) - 1);
+    warp = std::max(warp, TimeWarp{1, contact.retiming}.amount());
   }
-  console.result(fmt::format(
-      "  nothing found that loses energy at every contact and keeps its pace: one may add up to "
-      "{:.0f} % of energy, and a passage is up to {:.0f} % faster or slower",
-      100 * motion.energyGain, 100 * warp));
+  if (motion.energyGain > 0 && !energyAsked) {
+    console.result(fmt::format(
+        "  nothing found that loses energy at every contact and keeps its pace: one may add up to "
+        "{:.0f} % of energy, and a passage is up to {:.0f} % faster or slower",
+        100 * motion.energyGain, 100 * warp));
+  } else if (warp > 0 && motion.planner != "graph") {
+    console.result(
+        fmt::format("  a passage is up to {:.0f} % faster or slower", std::ceil(100 * warp)));
+  }
 }
 
 void showTake(Console& console, const Motion& motion, bool energyAsked, const fs::path& folder) {
   console.result(fmt::format("{} on {}{}: {}", motion.object.name, motion.object.surface,
                              fitOf(motion),
                              motion.success ? describe(motion) : "no acceptable motion"));
-  if (motion.success && motion.energyGain > 0 && !energyAsked) showEasing(console, motion);
+  if (motion.success) showEasing(console, motion, energyAsked);
   showPositions(console, motion);
   showDoubtfulMarks(console, motion);
   for (const auto& entry : fs::directory_iterator(folder)) {

@@ -2,6 +2,7 @@
 // The contact-time signature of a sound: when contacts begin, how long and how loud they are.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 namespace ifa {
@@ -11,6 +12,9 @@ struct AlternativeStart {
   double time = 0;  ///< s after the first event's start
   double cost = 0;  ///< log units that taking it costs beside the factors, >= 0
 };
+
+/// Of one event; each is one search more.
+inline constexpr std::size_t kMaxAlternatives = 16;
 
 /// One contact event of a sound (IFA section 3).
 struct SignatureEvent {

@@ -80,7 +80,9 @@ constexpr double kDropPrice = 6;
 /// The largest says how loud both are together, and that they must be met. If the first mark is a
 /// false one, the event begins with the second.
 void join(Label& label, const Label& next) {
-  if (label.weight < 1) label.alternatives.push_back({next.start, kDropPrice * label.weight});
+  if (label.weight < 1 && label.alternatives.size() < kMaxAlternatives) {
+    label.alternatives.push_back({next.start, kDropPrice * label.weight});
+  }
   label.end = std::max(label.end, next.end);
   if (next.amplitude) {
     label.amplitude = std::max(label.amplitude.value_or(0), *next.amplitude);

@@ -47,7 +47,7 @@ struct SignatureSettings {
 /// The merge filter of method.md 2 on labels: gaps under `mergeGap` closed, what is then shorter
 /// than it made a point. The start and the text of a merged label are its first's, but a text that
 /// ends in "terminal" stays with the last. Where the first is in doubt (weight under 1), the starts
-/// of the others become alternatives.
+/// of the first kMaxAlternatives others become alternatives.
 /// @param labels  in order of time
 [[nodiscard]] std::vector<Label> mergeLabels(const std::vector<Label>& labels, double mergeGap);
 

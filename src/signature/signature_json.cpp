@@ -19,7 +19,6 @@ constexpr std::size_t kMaxBytes = std::size_t{16} << 20;
 constexpr std::size_t kMaxEvents = 10000;
 constexpr double kMaxSeconds = 3600;
 constexpr double kMaxAmplitude = 1e6;
-constexpr std::size_t kMaxAlternatives = 16;  // each is one search more
 constexpr double kMaxCost = 1e3;
 constexpr double kMinFirstAmplitude = 1e-9;
 

@@ -9,6 +9,7 @@
 #include <chrono>
 
 #include "base/parallel.h"
+#include "connection/time_warp.h"
 #include "dynamics/energy.h"
 #include "planner/bodies.h"
 #include "planner/plan_difference.h"

@@ -152,6 +152,20 @@ TEST(MergeLabels, AnEventMayBeginWithoutAMarkInDoubt) {
   EXPECT_EQ(merged[1].weight, 1);  // one of the two is sure
 }
 
+TEST(MergeLabels, AsManyAlternativesAsASignatureHolds) {
+  std::vector labels = {label(0.1, 0.1, "c1")};
+  for (int i = 0; i < 40; ++i) {
+    const double start = 0.5 + 0.008 * i;
+    labels.push_back(label(start, start, "c"));
+    labels.back().weight = 0.5;
+  }
+  const auto signature = signatureWithoutSound(labels, {}, "a.txt");
+  ASSERT_TRUE(signature);
+  ASSERT_EQ(signature->events.size(), 2U);
+  EXPECT_EQ(signature->events[1].alternatives.size(), kMaxAlternatives);
+  EXPECT_NEAR(signature->events[1].alternatives.back().time, 0.4 + 0.008 * 16, 1e-12);
+}
+
 TEST(LabelsFromContacts, DoubtIsAWeight) {
   std::vector<DetectedContact> contacts(2);
   contacts[0].confidence = 0.95;
