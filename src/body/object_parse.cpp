@@ -67,7 +67,7 @@ void readSurfaces(const FieldReader& reader, ObjectDefinition& definition) {
   if (surfaces.json().size() > kMaxEntries) return reader.fail("surfaces", "has too many entries");
   for (const auto& item : surfaces.json().items()) {
     if (!isPlainName(item.key())) surfaces.fail(item.key(), "is not a plain name");
-    definition.surfaces[item.key()] = readSurface(surfaces.inside(item.key().c_str()));
+    definition.surfaces[item.key()] = readSurface(surfaces.inside(item.key(), item.value()));
   }
   definition.defaultSurface = reader.text("default_surface");
   if (!definition.surfaces.contains(definition.defaultSurface)) {

@@ -84,6 +84,14 @@ TEST_P(FaultyObject, NamesFileFieldAndFault) {
   EXPECT_THAT(d.error().message, HasSubstr(GetParam().message));
 }
 
+TEST(ObjectFile, AListOfSurfacesIsReadByWholeNames) {
+  Json json = goodObject();
+  json["surfaces"][std::string("desk\0s", 6)] = {{"restitution", 0.5}, {"friction", 0.3}};
+  const auto d = parse(json);
+  ASSERT_FALSE(d);
+  EXPECT_THAT(d.error().message, HasSubstr("is not a plain name"));
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Faults, FaultyObject,
     testing::Values(
