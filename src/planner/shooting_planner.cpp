@@ -22,7 +22,7 @@ constexpr double kPrice = 1.75;
 /// Of a pass, at least so much is made for further takes.
 constexpr double kNarrowestPass = 0.25;
 /// Searches that go on from a pass are by so much narrower, and find little below the second.
-constexpr double kNarrower = 0.35, kNarrowest = 0.12;
+constexpr double kNarrower = 0.5, kNarrowest = 0.12;
 /// With time warped, as much work takes so many times as long.
 constexpr double kWarpedCost = 1.3;
 /// The last contacts but one are too late to find another way to rest.
@@ -75,8 +75,8 @@ class ShootingRun {
     ShootingSearch search(problem_, static_cast<std::uint64_t>(pass), wide, hard_);
     search.run([this] { return stop(); },
                [&](double share) { progress_("search", (pass + share) / passes); });
-    pieces_ += search.work();
-    work_.count(search.cost());
+    pieces_ += search.work().pieces;
+    work_.count(search.work().cost());
     takes_.add(search);
     for (int i = 0; i < settings_.again && takes_.plans().empty() && !stop(); ++i) {
       work_.count(searchAgain(search, wide));
@@ -95,18 +95,17 @@ class ShootingRun {
     const ShootingNode* farthest = search.farthest();
     if (farthest == nullptr || farthest->level <= settings_.againFrom) return 0;
     const auto level = static_cast<std::size_t>(farthest->level - settings_.againFrom);
-    return goOn(problem_, search, wide, level, search.kept(level));
+    return goOn(problem_, search, wide, {level, search.kept(level), false});
   }
 
-  /// Searches on from `beam`, motions that the pass kept at `level`, with other random numbers.
-  /// Returns what it costs.
+  /// Searches on from what the pass kept, with other random numbers. Returns what it costs.
   double goOn(const ShootingProblem& problem, const ShootingSearch& search, double wide,
-              std::size_t level, std::vector<ShootingNode> beam) {
-    ShootingSearch more(problem, search, kResumed + resumed_++, wide, level, std::move(beam));
+              ShootingSearch::Beginning beginning) {
+    ShootingSearch more(problem, search, kResumed + resumed_++, wide, std::move(beginning));
     more.run([this] { return stop(); }, [](double) {});
-    pieces_ += more.work();
+    pieces_ += more.work().pieces;
     takes_.add(more);
-    return more.cost();
+    return more.work().cost();
   }
 
   /// Goes on from where the pass had motions that would make other takes, with time warped: first
@@ -127,8 +126,8 @@ class ShootingRun {
       const double full = kWarpedCost * search.costFrom(lineages.level);
       const double width = std::min(kNarrower, work_.left() / full);
       if (lineages.ways == 0 || width < kNarrowest) return;
-      work_.count(kWarpedCost *
-                  goOn(warped, search, width * wide, lineages.level, std::move(lineages.beam)));
+      work_.count(kWarpedCost * goOn(warped, search, width * wide,
+                                     {lineages.level, std::move(lineages.beam), true}));
       if (takes_.missing() < missing || takes_.plans().size() > found) continue;
       if (!beside) before = lineages.level;
       beside = !beside;

@@ -136,6 +136,16 @@ void ShootingDeaths::operator+=(const ShootingDeaths& o) {
   restless += o.restless;
 }
 
+void ShootingWork::operator+=(const ShootingWork& other) {
+  pieces += other.pieces;
+  flights += other.flights;
+}
+
+double ShootingWork::cost() const {
+  constexpr double kFlight = 10;
+  return static_cast<double>(pieces) + kFlight * static_cast<double>(flights);
+}
+
 ShootingSearch::ShootingSearch(const ShootingProblem& problem, std::uint64_t pass, double width,
                                std::vector<bool> hard)
     : problem_(problem),
@@ -148,12 +158,12 @@ ShootingSearch::ShootingSearch(const ShootingProblem& problem, std::uint64_t pas
       costBefore_(problem.targets.size()) {}
 
 ShootingSearch::ShootingSearch(const ShootingProblem& problem, const ShootingSearch& other,
-                               std::uint64_t pass, double width, std::size_t level,
-                               std::vector<ShootingNode> beam)
+                               std::uint64_t pass, double width, Beginning beginning)
     : ShootingSearch(problem, pass, width, other.hard_) {
-  begin_ = level;
-  std::copy_n(other.levels_.begin(), level, levels_.begin());
-  levels_[level] = std::move(beam);
+  begin_ = beginning.level;
+  inTurns_ = beginning.inTurns;
+  std::copy_n(other.levels_.begin(), begin_, levels_.begin());
+  levels_[begin_] = std::move(beginning.beam);
 }
 
 void ShootingSearch::run(const std::function<bool()>& stop,
@@ -161,7 +171,7 @@ void ShootingSearch::run(const std::function<bool()>& stop,
   if (begin_ == 0) plantRoots(stop);
   const std::size_t n = levels_.size();
   for (std::size_t level = begin_; level < n && !stop(); ++level) {
-    costBefore_[level] = cost();
+    costBefore_[level] = work_.cost();
     if (level + 1 == n) {
       complete_ = levels_[level];
       keepComplete(complete_, problem_.request.settings.takes);
@@ -192,7 +202,7 @@ void ShootingSearch::plantRoots(const std::function<bool()>& stop) {
   const std::size_t sampled = fresh + late, count = sampled + problem_.starts.size(),
                     batches = (count + kBatch - 1) / kBatch;
   std::vector<std::vector<ShootingNode>> made(batches);
-  std::atomic<long> work = 0, flights = 0;
+  std::vector<ShootingWork> work(batches);
   parallelFor(batches, [&](std::size_t batch) {
     if (stop()) return;
     ShootingWorker worker(problem_);
@@ -205,11 +215,9 @@ void ShootingSearch::plantRoots(const std::function<bool()>& stop) {
       }
     }
     made[batch] = std::move(worker.children);
-    work += worker.work();
-    flights += worker.flights();
+    work[batch] = worker.work();
   });
-  work_ += work;
-  flights_ += flights;
+  for (const ShootingWork& done : work) work_ += done;
   for (auto& nodes : made) levels_[0].insert(levels_[0].end(), nodes.begin(), nodes.end());
 }
 
@@ -238,7 +246,6 @@ void ShootingSearch::expandLevel(std::size_t level, const std::function<bool()>&
       for (ShootingWorker& worker : workers) {
         deaths_[level] += worker.deaths;
         work_ += worker.work();
-        flights_ += worker.flights();
         auto& to = levels_[next];
         to.insert(to.end(), worker.children.begin(), worker.children.end());
       }
@@ -263,16 +270,16 @@ void ShootingSearch::followOn(std::vector<ShootingNode>& nodes, std::size_t leve
   for (std::size_t m = 0; m < count; ++m)
     wanted.push_back(events[level + m + 1].time - events[level + m].time);
   const double horizon = 1.3 * (events[level + count].time - events[level].time) + 0.02;
-  std::atomic<long> work = 0;
+  std::atomic<long> pieces = 0;
   parallelFor(nodes.size(), [&](std::size_t i) {
     EventSimulation simulation(problem_.model, problem_.recorder);
     ShootingNode& node = nodes[i];
     std::vector<double> gaps = simulation.rhythm(node.event.after, count, horizon);
     if (!gaps.empty()) gaps[0] += node.event.end;
     node.rank -= set.hardWeight * rhythmCost(gaps, wanted);
-    work += simulation.pieces();
+    pieces += simulation.pieces();
   });
-  work_ += work;
+  work_.pieces += pieces;
 }
 
 void ShootingSearch::keepBest(std::vector<ShootingNode>& candidates, double width,
@@ -316,11 +323,11 @@ void ShootingSearch::keepBest(std::vector<ShootingNode>& candidates, double widt
     ++energy;
     kept.push_back(node);
   }
-  candidates = begin_ > 0 ? inTurns(kept) : std::move(kept);
+  candidates = inTurns_ ? inTurns(kept) : std::move(kept);
 }
 
-/// What costs most is tried on the first motions of a beam only: the best of each kind come first,
-/// then the second best of each.
+/// What costs most is tried on the first motions of a beam only: so the best of each kind come
+/// first, then the second best of each.
 std::vector<ShootingNode> ShootingSearch::inTurns(const std::vector<ShootingNode>& nodes) {
   std::map<unsigned, int> seen;
   std::multimap<int, ShootingNode> ordered;

@@ -82,17 +82,34 @@ struct ShootingDeaths {
   void operator+=(const ShootingDeaths& other);
 };
 
+/// Counted work: the same whatever else the machine does.
+struct ShootingWork {
+  long pieces = 0;   ///< of motion that were simulated: flights, impacts, steps in contact
+  long flights = 0;  ///< timed
+  void operator+=(const ShootingWork& other);
+  /// In pieces; a timed flight takes as many instructions as ten.
+  [[nodiscard]] double cost() const;
+};
+
 class ShootingSearch {
  public:
   /// @param hard  for each target, whether earlier passes found no way on a little later
   ShootingSearch(const ShootingProblem& problem, std::uint64_t pass, double width,
                  std::vector<bool> hard = {});
 
-  /// Goes on from `beam`: motions that `other` kept at `level`, `root` telling which of them are of
-  /// one kind. Each kind has the same share of the work.
+  /// Where a search goes on from.
+  struct Beginning {
+    std::size_t level = 0;
+    /// Motions that were kept there, `root` telling which of them are of one kind. Each kind has
+    /// the same share of the work.
+    std::vector<ShootingNode> beam;
+    /// What costs most is tried on the best of each kind, not on the best of all.
+    bool inTurns = false;
+  };
+  /// Goes on from what `other` kept.
   /// @param problem  that of `other`, or the same with other settings
   ShootingSearch(const ShootingProblem& problem, const ShootingSearch& other, std::uint64_t pass,
-                 double width, std::size_t level, std::vector<ShootingNode> beam);
+                 double width, Beginning beginning);
 
   /// Searches; `stop` is asked between batches and ends the search early.
   void run(const std::function<bool()>& stop, const std::function<void(double)>& progress);
@@ -110,21 +127,16 @@ class ShootingSearch {
   [[nodiscard]] const ShootingNode* farthest() const;
   /// From the first contact to `node`.
   [[nodiscard]] std::vector<ShootingNode> path(const ShootingNode& node) const;
-  /// Counted work (ShootingWorker::work).
-  [[nodiscard]] long work() const { return work_; }
-  /// What that and the flights that were timed cost, in the time that a piece takes.
-  [[nodiscard]] double cost() const { return cost(work_, flights_); }
-  /// What of it was spent from a level on.
-  [[nodiscard]] double costFrom(std::size_t level) const { return cost() - costBefore_[level]; }
+  [[nodiscard]] const ShootingWork& work() const { return work_; }
+  /// What was spent from a level on.
+  [[nodiscard]] double costFrom(std::size_t level) const {
+    return work_.cost() - costBefore_[level];
+  }
   [[nodiscard]] const ShootingDeaths& deathsAfter(int level) const {
     return deaths_[static_cast<std::size_t>(level)];
   }
 
  private:
-  [[nodiscard]] static double cost(long work, long flights) {
-    constexpr double kFlight = 12;  // by instructions counted
-    return static_cast<double>(work) + kFlight * static_cast<double>(flights);
-  }
   void plantRoots(const std::function<bool()>& stop);
   void expandLevel(std::size_t level, const std::function<bool()>& stop);
   [[nodiscard]] double widthAt(std::size_t level) const;
@@ -137,13 +149,13 @@ class ShootingSearch {
   std::uint64_t pass_;
   double width_;
   std::vector<bool> hard_;
-  std::size_t begin_ = 0;                          ///< level that is begun with
+  std::size_t begin_ = 0;  ///< level that is begun with
+  bool inTurns_ = false;
   std::size_t firstHard_;                          ///< 0 when none is
   std::vector<std::vector<ShootingNode>> levels_;  ///< kept, by target
   std::vector<ShootingDeaths> deaths_;             ///< on the way out of each level
   std::vector<ShootingNode> complete_;
-  long work_ = 0;
-  long flights_ = 0;
+  ShootingWork work_;
   std::vector<double> costBefore_;  ///< each level
 };
 

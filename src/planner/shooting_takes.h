@@ -48,7 +48,7 @@ class Takes {
   int refused_ = 0;
 };
 
-/// How much work is left for more takes than one, counted as ShootingSearch::cost.
+/// How much work is left for more takes than one, counted as ShootingWork::cost.
 class TakesBudget {
  public:
   /// @param times  all takes together may cost so many times what one does

@@ -31,10 +31,7 @@ class ShootingWorker {
   void expand(const ShootingNode& node, int index, int level, double effort, RandomStream random,
               double bound);
 
-  /// Counted work so far: pieces of motion that were simulated.
-  [[nodiscard]] long work() const { return simulation_.pieces(); }
-  /// Flights that were timed so far.
-  [[nodiscard]] long flights() const { return flights_; }
+  [[nodiscard]] ShootingWork work() const { return {simulation_.pieces(), flights_}; }
 
   std::vector<ShootingNode> children;
   ShootingDeaths deaths;

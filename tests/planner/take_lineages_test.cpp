@@ -63,7 +63,8 @@ TEST_F(TakeLineagesTest, TheMoreWaysAreWantedTheEarlierTheLevel) {
 TEST_F(TakeLineagesTest, ASearchThatGoesOnKeepsWhatWasBefore) {
   TakeLineages lineages = beside(5);
   const std::vector<ShootingNode> beam = lineages.beam;
-  ShootingSearch more(*problem_, *search_, 1000, 1, lineages.level, std::move(lineages.beam));
+  ShootingSearch more(*problem_, *search_, 1000, 1,
+                      {lineages.level, std::move(lineages.beam), true});
   more.run([] { return false; }, [](double) {});
   const ShootingNode* farthest = more.farthest();
   ASSERT_NE(farthest, nullptr);
