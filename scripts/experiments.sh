@@ -5,6 +5,8 @@
 # The paper's experiments: measures what is not yet in WORK and writes the page OUT/README.md with
 # tables, charts and the reel. Can be stopped and started again at any time: what is done is not done
 # again. Delete a folder of WORK to have that part anew, or all of WORK after a change of the program.
+# Reports of searches that take hours are kept in OUT/reports as well, and taken from there: delete
+# them there, too.
 # EXPERIMENT: table1 graph paper_cut planners table2 orientations database_size reel, all of them
 # without; or exact, printed or paper, other readings of planner "graph"; or page, which only writes
 # the page again. NOTE stands at the top of the page: what else the machine did, for example. ROWS
@@ -97,12 +99,26 @@ report() {
   mv "$out/$name.json" "$work/$name.json"
 }
 
+# is_kept NAME: whether there is WORK/NAME.json, perhaps of OUT/reports.
+is_kept() {
+  [ ! -e "$work/$1.json" ] || return 0
+  [ -e "$out/reports/$1.json" ] || return 1
+  mkdir -p "$work/${1%/*}"
+  cp "$out/reports/$1.json" "$work/$1.json"
+}
+
+# keep NAME: WORK/NAME.json to OUT/reports.
+keep() {
+  mkdir -p "$out/reports/${1%/*}"
+  cp "$work/$1.json" "$out/reports/$1.json"
+}
+
 # search READING ROW: planner "graph" by one way of reading the paper (docs/branch-and-bound.md):
 # graph, our own; exact, without images; printed; paper_cut, the first with the paper's cut of
 # events; paper, printed with that cut.
 search() {
   local reading=$1 row=$2 name=${2%@*} kind=sets cut=audible count=$graph_limit options=() set
-  [ ! -e "$work/$reading/$row.json" ] || return 0
+  ! is_kept "$reading/$row" || return 0
   case $reading in
     paper_cut | paper) kind=paper_sets cut=paper count=$paper_limit ;;
   esac
@@ -119,6 +135,7 @@ search() {
   XDG_CACHE_HOME=$large_cache evaluate "$reading/$row" "$set" --limit "$count" --jobs 2 \
     --planner graph --early-exit 1 --simulations "$simulations" --processor-time \
     --time-limit "$seconds" --cut $cut "${options[@]}"
+  keep "$reading/$row"
 }
 
 # searches READING...
@@ -165,13 +182,17 @@ database_size() {
   for row in $size_rows; do set_of "$row" >/dev/null; done
   for size in $sizes; do
     for row in $size_rows; do
+      ! is_kept "database_size/$size-$row" || continue
       while [ "$(jobs -rp | wc -l)" -ge 2 ]; do wait -n; done
       XDG_CACHE_HOME=$large_cache evaluate "database_size/$size-$row" "$work/sets/$row" --limit 1 --planner graph \
         --simulations "$size" --early-exit 1 --processor-time --time-limit $seconds &
     done
     wait
     rm -rf "$large_cache"
-    for row in $size_rows; do [ -e "$work/database_size/$size-$row.json" ] || return 1; done
+    for row in $size_rows; do
+      [ -e "$work/database_size/$size-$row.json" ] || return 1
+      keep "database_size/$size-$row"
+    done
   done
 }
 
