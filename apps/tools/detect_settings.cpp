@@ -12,9 +12,8 @@
 
 int main(int argc, char** argv) {
   CLI::App app{
-      "Reads lines \"MIN_RISE AFTER BEFORE\" (dB, s, s) and answers each with lines \"START END\", "
-      "one "
-      "a contact, and an empty one"};
+      "Reads lines \"MIN_RISE AFTER BEFORE\" (dB, s, s) and answers each with a line \"START END\" "
+      "for each contact, and an empty one"};
   std::filesystem::path path;
   app.add_option("SOUND", path)->required();
   CLI11_PARSE(app, argc, argv);
