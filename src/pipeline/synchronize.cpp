@@ -150,7 +150,7 @@ void auditTake(Motion& motion, const Body& body) {
 // On the surface that was asked for, or where the fit goes best.
 Result<Fit> planAsAsked(const SynchronizeSettings& settings, const Job& job,
                         const Progress& progress) {
-  const PlanRequest request = makeRequest(settings, job);
+  PlanRequest request = makeRequest(settings, job);
   if (settings.fit) {
     FitRequest wanted{job.planner.get(), request, job.body.definition.surfaces, job.surface,
                       cacheFolder()};
@@ -159,6 +159,7 @@ Result<Fit> planAsAsked(const SynchronizeSettings& settings, const Job& job,
     }
     return planWithFit(wanted, progress);
   }
+  request.settings.lastWarp = kEasedWarp;
   auto plans = job.planner->plan(request, progress);
   if (!plans) return tl::unexpected(plans.error());
   return Fit{request, job.surface, request.surface.restitution, std::move(*plans)};

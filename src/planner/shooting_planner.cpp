@@ -2,6 +2,7 @@
 #include "planner/shooting_planner.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 
@@ -25,6 +26,11 @@ constexpr double kNarrowestPass = 0.25;
 constexpr double kNarrower = 0.5, kNarrowest = 0.12;
 /// With time warped, as much work takes so many times as long.
 constexpr double kWarpedCost = 1.3;
+/// Where nothing is found, so many searches of these widths go on from each pass, with so many
+/// different ways.
+constexpr std::array kLastWidths = {0.5, 1.0};
+constexpr int kLastRounds = 3;
+constexpr std::size_t kLastWays = 12;
 /// The last contacts but one are too late to find another way to rest.
 constexpr std::size_t kTooLate = 2;
 
@@ -54,6 +60,7 @@ class ShootingRun {
       const double wide = work_.width(std::min(settings_.widest, width + 0.5 * pass));
       if ((work_.priced() && wide < kNarrowestPass) || !goesOn(pass, passes, wide)) break;
     }
+    if (request_.settings.lastWarp > 0 && takes_.plans().empty()) warpAtLast();
     // What is moved would not be where it is asked to be.
     const bool moves = request_.positions.empty();
     if (moves && !takes_.plans().empty() && !takes_.enough() && !stop()) takes_.move();
@@ -83,6 +90,7 @@ class ShootingRun {
     }
     const bool found = !takes_.plans().empty();
     if (!found && !learnsFrom(search) && pass > 0) return false;
+    if (!found) failed_.push_back(search);
     const bool one = found && (pass > 0 || isGood(takes_.plans()[0]));
     work_.passed(wide, one);
     if (one && takes_.missing() > 0) resume(search, wide);
@@ -108,11 +116,40 @@ class ShootingRun {
     return more.work().cost();
   }
 
+  /// The same request with time warped.
+  [[nodiscard]] PlanRequest warpedRequest() const {
+    PlanRequest request = request_;
+    request.settings.timeWarp = std::max(request.settings.timeWarp, kEasedWarp);
+    return request;
+  }
+
+  /// Where all passes found nothing: goes on from each with time warped, the last one first.
+  void warpAtLast() {
+    const PlanRequest request = warpedRequest();
+    const ShootingProblem warped(problem_, request);
+    for (const double width : kLastWidths) {
+      for (auto search = failed_.rbegin(); search != failed_.rend(); ++search) {
+        warpOn(warped, *search, width);
+      }
+    }
+  }
+
+  /// From ever earlier, until something is found.
+  void warpOn(const ShootingProblem& warped, const ShootingSearch& search, double width) {
+    const ShootingNode* farthest = search.farthest();
+    std::size_t before = farthest != nullptr ? static_cast<std::size_t>(farthest->level) : 0;
+    for (int round = 0; round < kLastRounds && takes_.plans().empty() && !stop(); ++round) {
+      TakeLineages lineages = lineagesBeside({}, search, kLastWays, before);
+      if (lineages.ways == 0) return;
+      before = lineages.level;
+      goOn(warped, search, width, {lineages.level, std::move(lineages.beam), true});
+    }
+  }
+
   /// Goes on from where the pass had motions that would make other takes, with time warped: first
   /// beside those that were found, then from those as well, then from earlier.
   void resume(const ShootingSearch& search, double wide) {
-    PlanRequest request = request_;
-    request.settings.timeWarp = std::max(request.settings.timeWarp, kEasedWarp);
+    const PlanRequest request = warpedRequest();
     ShootingProblem warped(problem_, request);
     // It counts in full here: a further take is missed less than a motion.
     warped.settings.warpWeight = 1;
@@ -185,6 +222,7 @@ class ShootingRun {
   long pieces_ = 0;         ///< simulated so far
   std::vector<bool> hard_;  ///< ShootingSearch's
   std::vector<Plan> partial_;
+  std::vector<ShootingSearch> failed_;
 };
 
 }  // namespace
