@@ -159,7 +159,7 @@ Result<Fit> planAsAsked(const SynchronizeSettings& settings, const Job& job,
     }
     return planWithFit(wanted, progress);
   }
-  request.settings.lastWarp = kEasedWarp;
+  request.settings.warpsAtLast = true;
   auto plans = job.planner->plan(request, progress);
   if (!plans) return tl::unexpected(plans.error());
   return Fit{request, job.surface, request.surface.restitution, std::move(*plans)};

@@ -41,8 +41,8 @@ struct PlannerSettings {
   /// Share by which what lies between two contacts may be played faster or slower than it was
   /// simulated (IFA 5.3.2). Of "shoot" and "hybrid"; "graph" has its own.
   double timeWarp = 0;
-  /// The same, but only where nothing is found otherwise.
-  double lastWarp = 0;
+  /// Of "shoot" and "hybrid": by kEasedWarp where nothing is found otherwise.
+  bool warpsAtLast = false;
   double bendCap = 2;             ///< no contact may be changed by more
   double effort = 1;              ///< scales the budget of counted work
   bool symmetry = true;           ///< "hybrid": events of the database also stand for their images

@@ -60,7 +60,7 @@ class ShootingRun {
       const double wide = work_.width(std::min(settings_.widest, width + 0.5 * pass));
       if ((work_.priced() && wide < kNarrowestPass) || !goesOn(pass, passes, wide)) break;
     }
-    if (request_.settings.lastWarp > 0 && takes_.plans().empty()) warpAtLast();
+    if (request_.settings.warpsAtLast && takes_.plans().empty()) warpAtLast();
     // What is moved would not be where it is asked to be.
     const bool moves = request_.positions.empty();
     if (moves && !takes_.plans().empty() && !takes_.enough() && !stop()) takes_.move();
@@ -88,10 +88,13 @@ class ShootingRun {
     for (int i = 0; i < settings_.again && takes_.plans().empty() && !stop(); ++i) {
       work_.count(searchAgain(search, wide));
     }
-    const bool found = !takes_.plans().empty();
-    if (!found && !learnsFrom(search) && pass > 0) return false;
-    if (!found) failed_.push_back(search);
-    const bool one = found && (pass > 0 || isGood(takes_.plans()[0]));
+    if (takes_.plans().empty()) {
+      if (!learnsFrom(search) && pass > 0) return false;
+      work_.passed(wide, false);
+      if (request_.settings.warpsAtLast) failed_.push_back(std::move(search));
+      return true;
+    }
+    const bool one = pass > 0 || isGood(takes_.plans()[0]);
     work_.passed(wide, one);
     if (one && takes_.missing() > 0) resume(search, wide);
     return !(one && takes_.missing() == 0);
@@ -222,7 +225,7 @@ class ShootingRun {
   long pieces_ = 0;         ///< simulated so far
   std::vector<bool> hard_;  ///< ShootingSearch's
   std::vector<Plan> partial_;
-  std::vector<ShootingSearch> failed_;
+  std::vector<ShootingSearch> failed_;  ///< kept to be gone on with
 };
 
 }  // namespace
