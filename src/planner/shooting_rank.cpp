@@ -113,9 +113,7 @@ double ShootingWorker::flightCost(const ShootingNode& node, int level, double du
                                                touch->state.position.head<2>(), registered);
     cost += std::min(problem_.settings.restless, -wished - placed);
   }
-  const bool closes =
-      level + 1 == static_cast<int>(problem_.targets.size()) && problem_.request.signature.terminal;
-  return closes && touch ? cost + endingCost(node, touch->state) : cost;
+  return closes(level) && touch ? cost + endingCost(node, touch->state) : cost;
 }
 
 /// Log units lost by the last event if it began at `arrival`, as far as that is bearable.

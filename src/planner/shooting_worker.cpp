@@ -65,6 +65,12 @@ void ShootingWorker::plantLate(unsigned root, std::uint64_t seed) {
 /// Contacts that are to be heard apart stay a merge gap apart, but for rounding.
 double ShootingWorker::shortestPassage() const { return problem_.recorder.mergeGap - 1e-6; }
 
+/// Whether the body is to come to rest at that target.
+bool ShootingWorker::closes(int level) const {
+  return level + 1 == static_cast<int>(problem_.targets.size()) &&
+         problem_.request.signature.terminal;
+}
+
 /// What sounds within a region that was marked is one event, if it does not fall silent for long.
 double ShootingWorker::mergeGapOf(std::size_t level) const {
   const double gap = problem_.recorder.mergeGap;
@@ -81,8 +87,11 @@ double ShootingWorker::droppedBetween(int from, int to) const {
 }
 
 /// No two places of a body and a floor are alike: every other attempt has a restitution of its own.
-double ShootingWorker::variedRestitution(int attempt, RandomStream& random) const {
+/// At the contact in which it is to come to rest, every third may be deader by any amount, like a
+/// face that comes down flat on the air under it: few motions come to rest there otherwise.
+double ShootingWorker::variedRestitution(int level, int attempt, RandomStream& random) const {
   const double nominal = problem_.model.surface.restitution;
+  if (closes(level) && attempt % 3 == 2) return nominal * random.uniform();
   if (attempt % 2 == 0) return nominal;
   const double range = problem_.settings.restitutionRange * std::max(nominal, kLively);
   return std::clamp(nominal + range * random.uniform(-1, 1), 0.0, kMostRestitution);
@@ -140,7 +149,7 @@ void ShootingWorker::expandTo(const ShootingNode& node, ShootingNode child, cons
       const double spread = set.spread * (0.25 + 0.75 * i / count);
       for (int axis = 0; axis < 6; ++axis) wish[axis] = spread * bellShaped(random);
     }
-    const double restitution = variedRestitution(i, random);
+    const double restitution = variedRestitution(level, i, random);
     const double eager = i == 0 || !steered ? 1 : random.uniform(0.5, 1.5);
     TimeWarp time{duration, duration};
     if (i > 0 && settings().timeWarp > 0) {
@@ -234,7 +243,7 @@ void ShootingWorker::shootSilently(const ShootingNode& node, const ShootingNode&
     const bool onTime = std::abs(next->delay - duration) < kSilentPrecision;
     edge.time = {next->delay, onTime ? next->delay : duration};
     const RigidState arrival = next->state;
-    arrive(node, child, edge, arrival, variedRestitution(attempt++, random), bound);
+    arrive(node, child, edge, arrival, variedRestitution(child.level, attempt++, random), bound);
   };
   findOnTime(probe, found, silentSettings(probes, duration), random);
 }
@@ -284,7 +293,7 @@ void ShootingWorker::arrive(const ShootingNode& node, ShootingNode child, const 
   const auto k = static_cast<std::size_t>(child.level);
   const HeardEvent& target = problem_.targets[k];
   const bool last = k + 1 == problem_.targets.size();
-  const bool terminal = last && problem_.request.signature.terminal;
+  const bool terminal = closes(child.level);
   RigidState start = arrival;
   start.velocity += jump.linear;
   start.angularVelocity += jump.angular;

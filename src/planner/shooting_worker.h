@@ -93,7 +93,8 @@ class ShootingWorker {
   [[nodiscard]] HeardEvent heardOf(const ContactEvent& event, double firstAmplitude) const;
   [[nodiscard]] double mergeGapOf(std::size_t level) const;
   [[nodiscard]] double droppedBetween(int from, int to) const;
-  [[nodiscard]] double variedRestitution(int attempt, RandomStream& random) const;
+  [[nodiscard]] bool closes(int level) const;
+  [[nodiscard]] double variedRestitution(int level, int attempt, RandomStream& random) const;
   [[nodiscard]] PlausibleRegion regionOf(const ContactEvent& event) const;
 
   const ShootingProblem& problem_;
