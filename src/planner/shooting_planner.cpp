@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "affinity/factors.h"
 #include "base/stopwatch.h"
 #include "planner/check_request.h"
 #include "planner/shooting_plan.h"
@@ -31,6 +32,8 @@ constexpr double kWarpedCost = 1.3;
 constexpr std::array kLastWidths = {0.5, 1.0};
 constexpr int kLastRounds = 3;
 constexpr std::size_t kLastWays = 12;
+/// What misses a place that was asked for by more, m, is looked for on like what is not there.
+constexpr double kMissed = 0.02;
 /// The last contacts but one are too late to find another way to rest.
 constexpr std::size_t kTooLate = 2;
 
@@ -55,12 +58,12 @@ class ShootingRun {
     const double most = settings_.mostPieces * request_.settings.effort;
     for (int pass = 0; pass < passes && !stop(); ++pass) {
       // Further takes have a price of their own.
-      const bool more = request_.settings.takes > 1 && !takes_.plans().empty();
+      const bool more = request_.settings.takes > 1 && found();
       if (!more && static_cast<double>(pieces_) > most) break;
       const double wide = work_.width(std::min(settings_.widest, width + 0.5 * pass));
       if ((work_.priced() && wide < kNarrowestPass) || !goesOn(pass, passes, wide)) break;
     }
-    if (request_.settings.warpsAtLast && takes_.plans().empty()) warpAtLast();
+    if (request_.settings.warpsAtLast && !found()) warpAtLast();
     // What is moved would not be where it is asked to be.
     const bool moves = request_.positions.empty();
     if (moves && !takes_.plans().empty() && !takes_.enough() && !stop()) takes_.move();
@@ -77,6 +80,16 @@ class ShootingRun {
     return cut_ || progress_.stopRequested();
   }
 
+  /// Whether there is a plan that is near enough to all places that are asked for.
+  bool found() {
+    if (takes_.plans().empty()) return false;
+    const auto& contacts = takes_.plans()[0].contacts;
+    const double least = std::exp(logPositionWish(kMissed));
+    return std::all_of(contacts.begin(), contacts.end(), [&](const PlannedContact& contact) {
+      return contact.factors.p >= least;
+    });
+  }
+
   /// Makes a pass; whether another one may help.
   bool goesOn(int pass, int passes, double wide) {
     ShootingSearch search(problem_, static_cast<std::uint64_t>(pass), wide, hard_);
@@ -85,11 +98,12 @@ class ShootingRun {
     pieces_ += search.work().pieces;
     work_.count(search.work().cost());
     takes_.add(search);
-    for (int i = 0; i < settings_.again && takes_.plans().empty() && !stop(); ++i) {
+    for (int i = 0; i < settings_.again && !found() && !stop(); ++i) {
       work_.count(searchAgain(search, wide));
     }
-    if (takes_.plans().empty()) {
-      if (!learnsFrom(search) && pass > 0) return false;
+    if (!found()) {
+      const bool luck = !takes_.plans().empty() || learnsFrom(search);
+      if (!luck && pass > 0) return false;
       work_.passed(wide, false);
       if (request_.settings.warpsAtLast) failed_.push_back(std::move(search));
       return true;
@@ -141,7 +155,7 @@ class ShootingRun {
   void warpOn(const ShootingProblem& warped, const ShootingSearch& search, double width) {
     const ShootingNode* farthest = search.farthest();
     std::size_t before = farthest != nullptr ? static_cast<std::size_t>(farthest->level) : 0;
-    for (int round = 0; round < kLastRounds && takes_.plans().empty() && !stop(); ++round) {
+    for (int round = 0; round < kLastRounds && !found() && !stop(); ++round) {
       TakeLineages lineages = lineagesBeside({}, search, kLastWays, before);
       if (lineages.ways == 0) return;
       before = lineages.level;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "planner/shooting_cases.h"
@@ -96,6 +97,35 @@ TEST(PositionWishesTest, AreWhereAnotherMotionWas) {
     EXPECT_NEAR(plan.contacts[k].factors.p, std::exp(-7000 * off * off), 1e-6);
   }
   EXPECT_GT(plan.score, 0.8);
+}
+
+/// Farthest that a contact begins from its place, m.
+double mostMissed(const Plan& plan, const PlanRequest& request) {
+  double most = 0;
+  for (const PlannedContact& contact : plan.contacts) {
+    const Vector2d& place = request.positions[static_cast<std::size_t>(contact.target)].place;
+    most = std::max(most, (placeOf(contact) - place).norm());
+  }
+  return most;
+}
+
+TEST(PositionWishesTest, AreLookedForOnWhereOneIsMissed) {
+  PlanRequest request = test::requestFor(test::die());
+  request.signature = test::signatures(test::die(), 1, 8, 12)[0];
+  for (std::size_t k = 0; k < request.signature.events.size(); ++k) {
+    const double zigzag = k % 2 == 0 ? 0 : 0.05;
+    request.positions.push_back({k, {0.5 * request.signature.events[k].time, zigzag}});
+  }
+  request.settings.seed = 1;
+  ShootingPlannerSettings settings = test::smallSearch();
+  settings.passes = 1;
+  const auto first = ShootingPlanner(settings).plan(request, {});
+  settings.passes = 6;
+  const auto best = ShootingPlanner(settings).plan(request, {});
+  ASSERT_TRUE(first && first->front().solved);
+  ASSERT_TRUE(best && best->front().solved);
+  EXPECT_GT(mostMissed(first->front(), request), 0.06);
+  EXPECT_LT(mostMissed(best->front(), request), 0.05);
 }
 
 TEST(PositionWishesTest, OfOneContactCostNothing) {
