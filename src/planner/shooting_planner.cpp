@@ -101,6 +101,9 @@ class ShootingRun {
     for (int i = 0; i < settings_.again && !found() && !stop(); ++i) {
       work_.count(searchAgain(search, wide));
     }
+    // With warped time what is found first is taken.
+    const bool warps = request_.settings.timeWarp > 0;
+    if (warps && !found()) warpOn(problem_, search, kLastWidths.front());
     if (!found()) {
       const bool luck = !takes_.plans().empty() || learnsFrom(search);
       if (!luck && pass > 0) return false;
@@ -108,7 +111,7 @@ class ShootingRun {
       if (request_.settings.warpsAtLast) failed_.push_back(std::move(search));
       return true;
     }
-    const bool one = pass > 0 || isGood(takes_.plans()[0]);
+    const bool one = pass > 0 || warps || isGood(takes_.plans()[0]);
     work_.passed(wide, one);
     if (one && takes_.missing() > 0) resume(search, wide);
     return !(one && takes_.missing() == 0);
