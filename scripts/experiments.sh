@@ -7,8 +7,8 @@
 # again. Delete a folder of WORK to have that part anew, or all of WORK after a change of the program.
 # Reports of searches that take hours are kept in OUT/reports as well, and taken from there: delete
 # them there, too.
-# EXPERIMENT: table1 graph paper_cut planners table2 orientations database_size reel, all of them
-# without; or exact, printed or paper, other readings of planner "graph"; or page, which only writes
+# EXPERIMENT: table1 graph planners table2 orientations database_size reel, all of them without; or
+# exact, printed, paper_cut or paper, other readings of planner "graph"; or page, which only writes
 # the page again. NOTE stands at the top of the page: what else the machine did, for example. ROWS
 # are the objects and surfaces to measure, "d6@desk Nut@desk", without it all of them. Needs python3
 # and, for the reel, ffmpeg (scripts/install_packages.sh foreign).
@@ -99,8 +99,8 @@ report() {
   mv "$out/$name.json" "$work/$name.json"
 }
 
-# is_kept NAME: whether there is WORK/NAME.json, perhaps of OUT/reports.
-is_kept() {
+# fetch NAME: WORK/NAME.json of OUT/reports, if it is not there yet; false where neither has it.
+fetch() {
   [ ! -e "$work/$1.json" ] || return 0
   [ -e "$out/reports/$1.json" ] || return 1
   mkdir -p "$work/${1%/*}"
@@ -118,7 +118,7 @@ keep() {
 # events; paper, printed with that cut.
 search() {
   local reading=$1 row=$2 name=${2%@*} kind=sets cut=audible count=$graph_limit options=() set
-  ! is_kept "$reading/$row" || return 0
+  ! fetch "$reading/$row" || return 0
   case $reading in
     paper_cut | paper) kind=paper_sets cut=paper count=$paper_limit ;;
   esac
@@ -182,7 +182,7 @@ database_size() {
   for row in $size_rows; do set_of "$row" >/dev/null; done
   for size in $sizes; do
     for row in $size_rows; do
-      ! is_kept "database_size/$size-$row" || continue
+      ! fetch "database_size/$size-$row" || continue
       while [ "$(jobs -rp | wc -l)" -ge 2 ]; do wait -n; done
       XDG_CACHE_HOME=$large_cache evaluate "database_size/$size-$row" "$work/sets/$row" --limit 1 --planner graph \
         --simulations "$size" --early-exit 1 --processor-time --time-limit $seconds &
@@ -251,7 +251,7 @@ page() {
   say "the page is $out/README.md"
 }
 
-all=(table1 graph paper_cut planners table2 orientations database_size reel)
+all=(table1 graph planners table2 orientations database_size reel)
 readings=(graph exact printed paper_cut paper)
 experiments() {
   local experiment chosen_readings=()

@@ -85,9 +85,8 @@ class ShootingRun {
     if (takes_.plans().empty()) return false;
     const auto& contacts = takes_.plans()[0].contacts;
     const double least = std::exp(logPositionWish(kMissed));
-    return std::all_of(contacts.begin(), contacts.end(), [&](const PlannedContact& contact) {
-      return contact.factors.p >= least;
-    });
+    return std::all_of(contacts.begin(), contacts.end(),
+                       [&](const PlannedContact& contact) { return contact.factors.p >= least; });
   }
 
   /// Makes a pass; whether another one may help.
@@ -161,8 +160,8 @@ class ShootingRun {
     for (int round = 0; round < kLastRounds && !found() && !stop(); ++round) {
       TakeLineages lineages = lineagesBeside({}, search, kLastWays, before);
       if (lineages.ways == 0) return;
-      before = lineages.level;
-      goOn(warped, search, width, {lineages.level, std::move(lineages.beam), true});
+      before = lineages.beginning.level;
+      goOn(warped, search, width, std::move(lineages.beginning));
     }
   }
 
@@ -180,13 +179,13 @@ class ShootingRun {
       const std::size_t missing = takes_.missing(), found = takes_.plans().size();
       TakeLineages lineages = lineagesBeside(beside ? takes_.plans() : std::vector<Plan>{}, search,
                                              settings_.waysPerTake * missing, before);
-      const double full = kWarpedCost * search.costFrom(lineages.level);
+      const std::size_t level = lineages.beginning.level;
+      const double full = kWarpedCost * search.costFrom(level);
       const double width = std::min(kNarrower, work_.left() / full);
       if (lineages.ways == 0 || width < kNarrowest) return;
-      work_.count(kWarpedCost * goOn(warped, search, width * wide,
-                                     {lineages.level, std::move(lineages.beam), true}));
+      work_.count(kWarpedCost * goOn(warped, search, width * wide, std::move(lineages.beginning)));
       if (takes_.missing() < missing || takes_.plans().size() > found) continue;
-      if (!beside) before = lineages.level;
+      if (!beside) before = level;
       beside = !beside;
     }
   }

@@ -25,7 +25,7 @@ TakeLineages lineagesAt(std::size_t level, const std::vector<Plan>& found,
                         const ShootingSearch& search) {
   std::vector<Path> ways;
   for (const Plan& plan : found) ways.push_back(pathUpTo(plan, level));
-  TakeLineages lineages{level, 0, {}};
+  ShootingSearch::Beginning beginning{level, {}, true};
   for (const ShootingNode& node : search.kept(level)) {
     Path path = search.pathTo(node);
     const auto way = std::find_if(ways.begin(), ways.end(),
@@ -33,11 +33,10 @@ TakeLineages lineagesAt(std::size_t level, const std::vector<Plan>& found,
     const auto number = static_cast<std::size_t>(way - ways.begin());
     if (way == ways.end()) ways.push_back(std::move(path));
     if (number < found.size()) continue;
-    lineages.beam.push_back(node);
-    lineages.beam.back().root = static_cast<unsigned>(number);
+    beginning.beam.push_back(node);
+    beginning.beam.back().root = static_cast<unsigned>(number);
   }
-  lineages.ways = ways.size() - found.size();
-  return lineages;
+  return {ways.size() - found.size(), std::move(beginning)};
 }
 
 }  // namespace

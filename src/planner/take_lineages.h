@@ -11,12 +11,11 @@
 
 namespace ifa {
 
-/// Motions of one level of a search that are none of the takes found, `root` telling which of them
-/// go one way.
+/// Motions of one level of a search that are none of the takes found, to go on from, each way in
+/// its turn.
 struct TakeLineages {
-  std::size_t level = 0;
-  std::size_t ways = 0;  ///< 0: there are none
-  std::vector<ShootingNode> beam;
+  std::size_t ways = 0;  ///< that they go; 0: there are none
+  ShootingSearch::Beginning beginning;
 };
 
 /// Those of the last level before `before` that has `wanted` ways, or of the one that has most.

@@ -42,10 +42,10 @@ TEST_F(TakeLineagesTest, NoneGoesTheWayOfATakeThatWasFound) {
   const TakeLineages lineages = beside(5);
   ASSERT_GT(lineages.ways, 0U);
   Plan part = found_[0];
-  part.contacts.resize(lineages.level + 1);
+  part.contacts.resize(lineages.beginning.level + 1);
   std::set<unsigned> ways;
-  for (const ShootingNode& node : lineages.beam) {
-    EXPECT_EQ(node.level, static_cast<int>(lineages.level));
+  for (const ShootingNode& node : lineages.beginning.beam) {
+    EXPECT_EQ(node.level, static_cast<int>(lineages.beginning.level));
     EXPECT_TRUE(differentPaths(search_->pathTo(node), pathOf(part)));
     ways.insert(node.root);
   }
@@ -57,21 +57,21 @@ TEST_F(TakeLineagesTest, TheMoreWaysAreWantedTheEarlierTheLevel) {
   const TakeLineages many = beside(12);
   EXPECT_GE(few.ways, 2U);
   EXPECT_GE(many.ways, few.ways);
-  EXPECT_LE(many.level, few.level);
+  EXPECT_LE(many.beginning.level, few.beginning.level);
 }
 
 TEST_F(TakeLineagesTest, ASearchThatGoesOnKeepsWhatWasBefore) {
   TakeLineages lineages = beside(5);
-  const std::vector<ShootingNode> beam = lineages.beam;
-  ShootingSearch more(*problem_, *search_, 1000, 1,
-                      {lineages.level, std::move(lineages.beam), true});
+  const std::size_t level = lineages.beginning.level;
+  const std::vector<ShootingNode> beam = lineages.beginning.beam;
+  ShootingSearch more(*problem_, *search_, 1000, 1, std::move(lineages.beginning));
   more.run([] { return false; }, [](double) {});
   const ShootingNode* farthest = more.farthest();
   ASSERT_NE(farthest, nullptr);
-  ASSERT_GT(farthest->level, static_cast<int>(lineages.level));
+  ASSERT_GT(farthest->level, static_cast<int>(level));
   const std::vector<ShootingNode> path = more.path(*farthest);
   ASSERT_EQ(path.size(), static_cast<std::size_t>(farthest->level) + 1);
-  const ShootingNode& taken = path[lineages.level];
+  const ShootingNode& taken = path[level];
   EXPECT_TRUE(std::any_of(beam.begin(), beam.end(), [&](const ShootingNode& node) {
     return node.parent == taken.parent && node.event.before.position == taken.event.before.position;
   }));
