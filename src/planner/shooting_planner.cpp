@@ -161,7 +161,11 @@ class ShootingRun {
       TakeLineages lineages = lineagesBeside({}, search, kLastWays, before);
       if (lineages.ways == 0) return;
       before = lineages.beginning.level;
-      goOn(warped, search, width, std::move(lineages.beginning));
+      goOn(warped, search, width, lineages.beginning);
+      // What a narrow search comes upon is seldom the best.
+      if (found() && !isGood(takes_.plans()[0])) {
+        goOn(warped, search, kLastWidths.back(), std::move(lineages.beginning));
+      }
     }
   }
 
