@@ -136,6 +136,10 @@ EdgeWeight ContactGraph::edgeWeight(const TransitionSource& source, const Transi
   return EdgeWeigher(p.database, p.body, p.settings, seen, target).weigh(sibling);
 }
 
+EdgeWeight ContactGraph::silentWeight(const TransitionTarget& target, std::uint32_t event) const {
+  return ifa::silentWeight(parts_->database, parts_->settings, target, event);
+}
+
 std::vector<PathStart> ContactGraph::bestStarts(double time, const HeardEvent& first,
                                                 const TransitionTarget& second,
                                                 std::size_t count) const {
@@ -155,8 +159,10 @@ std::vector<PathStart> ContactGraph::bestStarts(double time, const HeardEvent& f
     if (start.sound.sound < best.least() || !(measure > 0)) continue;
     const TransitionSource source = {this->event(j).before, this->event(j).after};
     const TransitionTarget target = {start.time, second.heard, second.terminal, measure};
-    start.weight = EdgeWeigher(p.database, p.body, p.settings, source, target)
-                       .weigh(j, best.least() - start.sound.sound);
+    start.weight = isLeftInSilence(flags, j)
+                       ? silentWeight(target, j)
+                       : EdgeWeigher(p.database, p.body, p.settings, source, target)
+                             .weigh(j, best.least() - start.sound.sound);
     start.total = start.sound.sound + start.weight.total();
     if (start.weight.exists()) best.add(start);
   }

@@ -34,7 +34,7 @@ struct Transition {
 };
 
 /// First edge of a path: event `first` of the database and the one after it, as simulated but for
-/// the time of the flight between.
+/// the time of the way between.
 struct PathStart {
   std::uint32_t first = 0;
   double time = 0;    ///< T* between the two, s
@@ -79,6 +79,9 @@ class ContactGraph {
   [[nodiscard]] EdgeWeight edgeWeight(const TransitionSource& source,
                                       const TransitionTarget& target, std::uint32_t sibling,
                                       std::size_t symmetry = 0) const;
+
+  /// Weight of the edge that follows `event` through silent contact, as it was simulated.
+  [[nodiscard]] EdgeWeight silentWeight(const TransitionTarget& target, std::uint32_t event) const;
 
   /// First edges of a path of two events or more (5.5), best first by total, equal ones by event;
   /// exact. T* is `time` less the first event's own duration; the first event's amplitude is what

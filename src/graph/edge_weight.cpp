@@ -62,6 +62,34 @@ bool isLeftByFlight(std::span<const std::uint8_t> flags, std::size_t event) {
   return hasNext && (flags[event] & kAsked) == EventRecord::kFollowed;
 }
 
+bool isLeftInSilence(std::span<const std::uint8_t> flags, std::size_t event) {
+  const bool followed = event + 1 < flags.size() && (flags[event] & EventRecord::kFollowed) != 0;
+  return followed && !isLeftByFlight(flags, event);
+}
+
+EdgeWeight silentWeight(const EventDatabase& database, const GraphSettings& settings,
+                        const TransitionTarget& target, std::size_t event) {
+  EdgeWeight weight;
+  const auto flags = database.flags();
+  const double own = database.values(kGap)[event];
+  if (!isLeftInSilence(flags, event)) {
+    weight.refusal = EdgeRefusal::kNotFlight;
+  } else if (((flags[event + 1] & EventRecord::kTerminal) != 0) != target.terminal) {
+    weight.refusal = EdgeRefusal::kEnd;
+  } else if (!(target.time > 0) || !(own > 0) ||
+             !(TimeWarp{own, target.time}.amount() < settings.largestWarp)) {
+    weight.refusal = EdgeRefusal::kTime;
+  }
+  if (!weight.exists()) return weight;
+  const AffinityParameters& p = settings.affinity;
+  const HeardEvent heard = heardEvent(database, event + 1, target.firstAmplitude);
+  weight.timeWarp = logTimeWarp(target.time, own, p);
+  weight.amplitude = logAmplitude(target.heard, heard, p);
+  weight.duration = logDuration(target.heard, heard, p);
+  weight.centroid = logCentroid(target.heard, heard, p);
+  return weight;
+}
+
 EdgeRefusal EdgeWeigher::refusedUnseen(std::size_t sibling) const {
   const auto flags = database_->flags();
   if (!isLeftByFlight(flags, sibling)) return EdgeRefusal::kNotFlight;

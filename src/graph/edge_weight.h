@@ -31,7 +31,7 @@ struct TransitionTarget {
 /// Why there is no edge.
 enum class EdgeRefusal : std::uint8_t {
   kNone,
-  kNotFlight,    ///< no event follows the sibling, or what leads there is silent contact
+  kNotFlight,    ///< no event follows the sibling, or not by such a way
   kEnd,          ///< f_end: just one of target and event is terminal
   kTime,         ///< a time is not above 0, or T_j is too far from T* to be warped
   kRising,       ///< the body would arrive on its way up, which it did not when simulated
@@ -66,6 +66,14 @@ struct EdgeWeight {
 /// Whether what follows `event` is another one, and flight all the way there.
 /// @param flags  of all events of the database
 [[nodiscard]] bool isLeftByFlight(std::span<const std::uint8_t> flags, std::size_t event);
+
+/// Whether another one follows, and the body touches the ground on the way there.
+[[nodiscard]] bool isLeftInSilence(std::span<const std::uint8_t> flags, std::size_t event);
+
+/// Of the edge that follows `event` through silent contact to the next one, just as it was
+/// simulated, shown in the time that is wanted (5.3.2): f_v = f_q = 1.
+[[nodiscard]] EdgeWeight silentWeight(const EventDatabase& database, const GraphSettings& settings,
+                                      const TransitionTarget& target, std::size_t event);
 
 /// An event as equations 6 to 8 see it: duration filtered by the merge gap that the database was
 /// made with. @param firstAmplitude  N s

@@ -22,8 +22,9 @@ struct GraphSettings {
   VelocityReference velocityReference = VelocityReference::kBlend;
   /// Time of the flight in v_blend and f_q: T* (kExact) or T_j (kBlend, as printed).
   ConnectionKind connection = ConnectionKind::kExact;
-  /// With kBlend, edges whose T_eval (eq. 5) is not below this are not there: they cannot be shown
-  /// (5.3.2, ConnectionSettings::largestWarp).
+  /// Edges that are shown in another time than they were simulated in, silent ones and with kBlend
+  /// all, are not there where T_eval (eq. 5) is not below this (5.3.2,
+  /// ConnectionSettings::largestWarp).
   double largestWarp = 0.3;
   /// Equations 2 to 8, as printed.
   AffinityParameters affinity;

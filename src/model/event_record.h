@@ -4,7 +4,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 
 #include "model/rigid_state.h"
@@ -21,35 +20,10 @@ struct PackedState {
 };
 
 /// Rounds to the nearest floats.
-[[nodiscard]] inline PackedState pack(const RigidState& state) {
-  const auto rounded = [](const Eigen::Vector3d& v) {
-    return std::array{static_cast<float>(v.x()), static_cast<float>(v.y()),
-                      static_cast<float>(v.z())};
-  };
-  const Eigen::Quaterniond& q = state.orientation;
-  return {static_cast<float>(state.position.z()),
-          {static_cast<float>(q.w()), static_cast<float>(q.x()), static_cast<float>(q.y()),
-           static_cast<float>(q.z())},
-          rounded(state.velocity),
-          rounded(state.angularVelocity)};
-}
-
+[[nodiscard]] PackedState pack(const RigidState& state);
 /// At x = y = 0, the orientation made a rotation again. The same bits everywhere: what starts from
 /// it can be simulated again.
-[[nodiscard]] inline RigidState unpack(const PackedState& packed) {
-  const auto exact = [](const std::array<float, 3>& v) {
-    return Eigen::Vector3d(v[0], v[1], v[2]);
-  };
-  const double w = packed.orientation[0], x = packed.orientation[1], y = packed.orientation[2],
-               z = packed.orientation[3];
-  const double length = std::sqrt((w * w + x * x) + (y * y + z * z));
-  RigidState state;
-  state.position.z() = packed.height;
-  if (length > 0) state.orientation = {w / length, x / length, y / length, z / length};
-  state.velocity = exact(packed.velocity);
-  state.angularVelocity = exact(packed.angularVelocity);
-  return state;
-}
+[[nodiscard]] RigidState unpack(const PackedState& packed);
 
 /// One event and what joins it to the next one of its simulation. IFA 5.2; docs/database.md.
 struct EventRecord {

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "dynamics/stepper.h"
+#include "model/event_record.h"
 #include "motion/trajectory_writer.h"
 
 namespace ifa {
@@ -159,12 +160,16 @@ class Builder {
       writer_.flight(start, endOf(k), duration, next.retiming);
       return {};
     }
-    stepper_.start(start);
+    if (!next.unbroken) stepper_.start(start);
     const auto arrives = [&](const Stepper& s, Advance) {
-      return sameState(rigidState(s.state()), next.event.before);
+      RigidState state = rigidState(s.state());
+      if (next.unbroken) state = unpack(pack(state));
+      return sameState(state, next.event.before);
     };
-    const bool met = writer_.run(stepper_, endOf(k), duration / next.retiming + 1e-3, true, arrives,
-                                 next.retiming);
+    const double begin = next.unbroken ? plan_.contacts[k].event.end : 0;
+    const bool met =
+        writer_.run(stepper_, endOf(k) - next.retiming * begin,
+                    begin + duration / next.retiming + 1e-3, true, arrives, next.retiming);
     if (!met) return differs(k + 1, "is not reached as planned");
     motion_.trajectory.pop_back();  // the event begins with it
     return {};

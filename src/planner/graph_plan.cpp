@@ -73,6 +73,8 @@ class PlanMaker {
     to.bend = edge.bend;
     to.arrivalBend = edge.arrivalBend;
     to.retiming = edge.connection.time.stretch();
+    if (edge.silent) to.arrival = Arrival::kSilentContact;
+    to.unbroken = edge.silent;
     weigh(step, edge, to);
   }
 

@@ -36,6 +36,7 @@ class Found {
   [[nodiscard]] bool reached(double score) const {
     return !plans_.empty() && plans_[0].score >= score;
   }
+  [[nodiscard]] bool any() const { return !plans_.empty(); }
   [[nodiscard]] bool full() const { return plans_.size() >= wanted_; }
   [[nodiscard]] std::vector<Plan> take() { return std::move(plans_); }
 
@@ -105,6 +106,7 @@ class GraphRun {
       if (!path) break;
       keep(*path);
     }
+    if (!found_.any() && !progress_.stopRequested()) search.reachFarthest();
     farthest_ = search.farthest();
   }
 

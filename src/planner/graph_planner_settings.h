@@ -14,16 +14,17 @@ struct GraphPlannerSettings {
   /// weight with the vertical part of the next edge's f_v is best: a body that cannot rise to the
   /// next gap is left out. 1: as printed.
   std::size_t lookAhead = 8;
-  std::size_t starts = 1000;  ///< first edges that are looked at
-  long mostQueries = 200000;  ///< nodes expanded before the search gives up, times effort
-  int mostDeadEnds = 60;      ///< steps back on the way from one start
+  std::size_t starts = 1000;       ///< first edges that are looked at; four times as many ...
+  std::size_t mostStarts = 20000;  ///< ... where they lead nowhere, and so on up to this
+  long mostQueries = 200000;       ///< nodes expanded before the search gives up, times effort
+  int mostDeadEnds = 60;           ///< steps back on the way from one start
 
   /// Looks at everything there is: for tests, and for tiny databases.
   [[nodiscard]] static GraphPlannerSettings exhaustive() {
     GraphPlannerSettings all;
     all.horizon = all.commit = 1 << 20;
     all.lookAhead = 1;
-    all.children = all.starts = static_cast<std::size_t>(-1) / 2;
+    all.children = all.starts = all.mostStarts = static_cast<std::size_t>(-1) / 2;
     all.mostQueries = 1L << 40;
     return all;
   }

@@ -16,7 +16,7 @@ constexpr std::size_t kMostLists = 200000;
 /// Times the children wanted that are looked at where few can go on.
 constexpr std::size_t kMostAhead = 512;
 /// Times the starts wanted that are looked at where few lie as asked.
-constexpr std::size_t kMoreStarts = 32;
+constexpr std::size_t kMoreStarts = 4;
 /// Log weight that an event is put back by whose own way leads to one that lies otherwise.
 constexpr double kLiesOtherwise = 10;
 
@@ -37,14 +37,16 @@ GraphSearch::GraphSearch(const PlanRequest& request, const GraphPlannerSettings&
       lookAhead_(request, connector.model()),
       wishes_(request),
       places_(request),
-      stop_(std::move(stop)) {
+      stop_(std::move(stop)),
+      mostQueries_(
+          static_cast<long>(static_cast<double>(settings.mostQueries) * request.settings.effort)) {
   const auto& events = request.signature.events;
   TransitionTarget second;
   second.heard = heardOf(events[1]);
   second.terminal = events.size() == 2 && request.signature.terminal;
   const bool asked = wishes_.any(0) || wishes_.any(1) || places_.any(1);
   starts_ = graph_.bestStarts(events[1].time - events[0].time, heardOf(events[0]), second,
-                              settings.starts * (asked ? kMoreStarts : 1));
+                              settings.mostStarts * (asked ? kMoreStarts : 1));
   if (!asked) return;
   std::erase_if(starts_, [this](const PathStart& start) {
     return !lies(0, start.first) || !lies(1, start.second());
@@ -55,7 +57,7 @@ GraphSearch::GraphSearch(const PlanRequest& request, const GraphPlannerSettings&
     std::stable_sort(starts_.begin(), starts_.end(),
                      [](const PathStart& a, const PathStart& b) { return a.total > b.total; });
   }
-  if (starts_.size() > settings.starts) starts_.resize(settings.starts);
+  if (starts_.size() > settings.mostStarts) starts_.resize(settings.mostStarts);
 }
 
 GraphSearch::Standing GraphSearch::standing(const GraphPath& path) {
@@ -99,10 +101,7 @@ bool GraphSearch::ownWayLies(int level, std::uint32_t event) const {
 
 int GraphSearch::levels() const { return static_cast<int>(request_.signature.events.size()); }
 
-bool GraphSearch::spent() const {
-  return stopped_ || static_cast<double>(queries_) >
-                         static_cast<double>(settings_.mostQueries) * request_.settings.effort;
-}
+bool GraphSearch::spent() const { return stopped_ || queries_ > mostQueries_; }
 
 /// T* of the edge that leaves the path's last event. Starts are met exactly, so the signature's
 /// times are the plan's.
@@ -147,8 +146,8 @@ const std::vector<GraphChild>& GraphSearch::children(const GraphPath& path) {
 
 std::vector<GraphChild> GraphSearch::find(const GraphPath& path, std::size_t wanted) {
   const int level = path.last();
-  const ContactEvent& left = connector_.event(path.event(level));
-  if (left.touchingAfter) return {};
+  const std::uint32_t event = path.event(level);
+  const ContactEvent& left = connector_.event(event);
   TransitionTarget target;
   target.time = timeAfter(path);
   target.heard = heardOf(request_.signature.events[static_cast<std::size_t>(level) + 1]);
@@ -161,26 +160,29 @@ std::vector<GraphChild> GraphSearch::find(const GraphPath& path, std::size_t wan
   const Standing here = placed ? standing(path) : Standing();
   const TransitionSource source{left.before, left.after};
   std::vector<GraphChild> found;
+  const auto add = [&](const Transition& edge) {
+    if (asked && !lies(level + 1, edge.event())) return;
+    GraphChild child{edge, 0, edge.total};
+    child.place = placeOf(here, level + 1, event, edge.sibling, edge.symmetry);
+    child.worth += child.place;
+    if (ahead) lookAhead_.rate(level + 1, child);
+    if (askedNext && !ownWayLies(level + 2, edge.event())) child.worth -= kLiesOtherwise;
+    if (child.bound > graph_.settings().leastVelocity) found.push_back(child);
+  };
   // Where most cannot go on from there, more are looked at.
   std::size_t factor = ahead ? settings_.lookAhead : 1;
   // Few events lead to rest, to one that lies as asked, or to a place: they must be looked for.
   const bool lastButOne = level + 3 == levels() && request_.signature.terminal;
   if (lastButOne || askedNext || placed) factor *= factor;
-  for (;; factor *= std::max<std::size_t>(2, settings_.lookAhead)) {
+  for (; !left.touchingAfter; factor *= std::max<std::size_t>(2, settings_.lookAhead)) {
     const std::vector<Transition> edges = graph_.best(source, target, wanted * factor);
     found.clear();
-    for (const Transition& edge : edges) {
-      if (asked && !lies(level + 1, edge.event())) continue;
-      GraphChild child{edge, 0, edge.total};
-      child.place = placeOf(here, level + 1, path.event(level), edge.sibling, edge.symmetry);
-      child.worth += child.place;
-      if (ahead) lookAhead_.rate(level + 1, child);
-      if (askedNext && !ownWayLies(level + 2, edge.event())) child.worth -= kLiesOtherwise;
-      if (child.bound > graph_.settings().leastVelocity) found.push_back(child);
-    }
+    for (const Transition& edge : edges) add(edge);
     const bool all = edges.size() < wanted * factor;
     if ((!ahead && !asked) || all || found.size() >= wanted || factor >= kMostAhead) break;
   }
+  const EdgeWeight silence = graph_.silentWeight(target, event);
+  if (silence.exists()) add({event, silence, silence.total(), 0});
   std::sort(found.begin(), found.end(), [](const GraphChild& a, const GraphChild& b) {
     return a.worth != b.worth ? a.worth > b.worth : a.transition.sibling < b.transition.sibling;
   });
@@ -214,7 +216,8 @@ void GraphSearch::descend(GraphPath& path, int depth, double total) {
 
 void GraphSearch::descendFromStarts(int depth) {
   const Standing here = standing({});
-  for (const PathStart& start : starts_) {
+  for (std::size_t i = 0; i < std::min(settings_.starts, starts_.size()); ++i) {
+    const PathStart& start = starts_[i];
     if (start.total <= bestTotal_) return;
     if (usedStarts_.count(start.first) > 0) continue;
     GraphPath path;
@@ -296,10 +299,12 @@ bool GraphSearch::stepBack(GraphPath& kept) {
   return true;
 }
 
-/// No path leads to the horizon: how far one leads says which contact is the one to blame. Without
-/// the look-ahead, which gives up the contact before it.
+/// Without the look-ahead, which gives up the contact before the one to blame.
 void GraphSearch::reachFarthest() {
   children_.clear();
+  stop_ = [] { return false; };
+  stopped_ = false;
+  mostQueries_ = queries_ + queries_ / 10 + 100;
   const std::size_t ahead = std::exchange(settings_.lookAhead, 1);
   const GraphPath kept = farthest_;
   const int most = depthFrom(kept);
@@ -317,8 +322,9 @@ std::optional<GraphPath> GraphSearch::next() {
     const std::optional<GraphPath> window = bestFrom(kept, depthFrom(kept));
     if (!window) {
       if (kept.edges.empty()) {
-        reachFarthest();
-        return {};
+        if (settings_.starts >= starts_.size()) return {};
+        settings_.starts *= 4;
+        continue;
       }
       if (!stepBack(kept)) {
         kept = {};

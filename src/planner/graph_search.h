@@ -60,6 +60,9 @@ class GraphSearch {
   [[nodiscard]] std::optional<GraphPath> next();
   /// The longest path whose connections are made, for when there is no complete one.
   [[nodiscard]] const GraphPath& farthest() const { return farthest_; }
+  /// Looks on from there, whatever `stop` says, with a tenth of what was spent: no path may have led
+  /// to the horizon, and how far one leads says which contact is the one to blame.
+  void reachFarthest();
   [[nodiscard]] long queries() const { return queries_; }
   /// Tells how much of the signature the path that is being made has met, 0 to 1.
   std::function<void(double)> progress;
@@ -91,7 +94,6 @@ class GraphSearch {
   [[nodiscard]] bool spent() const;
   [[nodiscard]] std::optional<GraphPath> bestFrom(const GraphPath& kept, int depth);
   [[nodiscard]] int depthFrom(const GraphPath& kept) const;
-  void reachFarthest();
   void descend(GraphPath& path, int depth, double total);
   void descendFromStarts(int depth);
   [[nodiscard]] static Turn turn(const GraphPath& path, int level, std::uint32_t sibling);
@@ -126,7 +128,7 @@ class GraphSearch {
   std::optional<GraphPath> best_;
   double bestTotal_ = 0;
   GraphPath farthest_;
-  long queries_ = 0;
+  long queries_ = 0, mostQueries_;
   int deadEnds_ = 0;
   bool stopped_ = false;
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "planner/look_ahead.h"
 
+#include <algorithm>
+
 #include "affinity/factors.h"
 
 namespace ifa {
@@ -22,20 +24,22 @@ void LookAhead::rate(int level, GraphChild& child) const {
   const double duration = graph_.database().values(kDuration)[event];
   const double time = events[index + 1].time - events[index].time - duration;
   const NextFlight::Cost next = nextFlight_.cost(event, time);
-  child.bound = next.bound;
+  TransitionTarget own;
+  own.time = time;
+  own.terminal = index + 2 == events.size() && request_.signature.terminal;
+  const EdgeWeight silence = graph_.silentWeight(own, event);
+  child.bound = silence.exists() ? std::max(next.bound, silence.timeWarp) : next.bound;
   if (graph_.settings().velocityReference == VelocityReference::kPrinted) return;
-  const bool terminal = index + 2 == events.size() && request_.signature.terminal;
-  child.worth += ownWay(event, time, terminal).value_or(next.guess - kNoOwnWay);
+  child.worth += silence.exists() ? silence.timeWarp
+                                  : ownFlight(event, own).value_or(next.guess - kNoOwnWay);
 }
 
 /// What it would take to follow the event's own flight, in another time: it need not be the best
 /// edge, but where it is a good one, there are others like it.
-std::optional<double> LookAhead::ownWay(std::uint32_t event, double time, bool terminal) const {
+std::optional<double> LookAhead::ownFlight(std::uint32_t event,
+                                           const TransitionTarget& own) const {
   const auto flags = graph_.database().flags();
   if ((flags[event] & EventRecord::kFollowed) == 0) return {};
-  TransitionTarget own;
-  own.time = time;
-  own.terminal = terminal;
   const ContactEvent from = graph_.event(event);
   const EdgeWeight weight = graph_.edgeWeight({from.before, from.after}, own, event);
   if (!weight.exists()) return {};

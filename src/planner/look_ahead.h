@@ -15,7 +15,7 @@ namespace ifa {
 /// A transition, and what is known of the edge after it.
 struct GraphChild {
   Transition transition;
-  double bound = 0;  ///< log f_v of that edge is no more
+  double bound = 0;  ///< log weight of that edge is no more
   double worth = 0;  ///< total weight, and the weight of that edge as far as it can be guessed
   double place = 0;  ///< log f_p where it leads, in `worth` too
 };
@@ -30,7 +30,8 @@ class LookAhead {
   void rate(int level, GraphChild& child) const;
 
  private:
-  [[nodiscard]] std::optional<double> ownWay(std::uint32_t event, double time, bool terminal) const;
+  [[nodiscard]] std::optional<double> ownFlight(std::uint32_t event,
+                                                const TransitionTarget& own) const;
 
   const PlanRequest& request_;
   const ContactGraph& graph_;

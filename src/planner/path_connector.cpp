@@ -35,11 +35,15 @@ PathConnector::PathConnector(const PlanRequest& request)
   connection_.depth = request.body->tolerance();
 }
 
-const ContactEvent& PathConnector::event(std::uint32_t id) {
-  const auto known = events_.find(id);
-  if (known != events_.end()) return known->second;
+const ChainLink& PathConnector::link(std::uint32_t id) {
+  const auto known = links_.find(id);
+  if (known != links_.end()) return known->second;
   const PackedState before = graph_.database().record(id).before;
-  return events_.emplace(id, chain_.follow(before, kLongestEvent).event).first->second;
+  return links_.emplace(id, chain_.follow(before, kLongestEvent)).first->second;
+}
+
+bool PathConnector::isSilent(std::uint32_t from, std::uint32_t sibling) const {
+  return from == sibling && isLeftInSilence(graph_.database().flags(), from);
 }
 
 PlausibleRegion PathConnector::regionOf(std::uint32_t id) {
@@ -79,14 +83,35 @@ void PathConnector::weigh(std::uint32_t from, std::uint32_t sibling, double time
 
 Placement PathConnector::placement(std::uint32_t from, std::uint32_t sibling,
                                    std::uint32_t symmetry) {
+  if (isSilent(from, sibling)) return {shiftTo(link(from).next), {}};
   const auto [j, k] = graph_.passage(sibling);
   const SymmetryImage& image = graph_.image(symmetry);
   const Registration registration = registerState(image.apply(j.after), event(from).after);
   return {registration.transform.after(shiftTo(image.apply(k.before))), image};
 }
 
+ConnectedEdge PathConnector::makeSilent(std::uint32_t from, double time) {
+  ConnectedEdge edge;
+  const ChainLink& own = link(from);
+  // A database may have begun anew on the way there; that cannot be followed.
+  const PackedState reached = graph_.database().record(from + 1).before;
+  if (!own.heard || !own.followed || !(pack(own.next) == reached)) return edge;
+  edge.silent = true;
+  edge.connection.departure = own.event.after;
+  edge.connection.arrival = edge.connection.target = own.next;
+  edge.connection.time = {own.nextStart - own.event.end, time};
+  edge.placement = placement(from, from, 0);
+  edge.arrival = event(from + 1).before;
+  edge.arrival.velocity = own.next.velocity;
+  edge.arrival.angularVelocity = own.next.angularVelocity;
+  weigh(from, from, time, edge);
+  edge.feasible = edge.connection.time.amount() < graph_.settings().largestWarp;
+  return edge;
+}
+
 ConnectedEdge PathConnector::make(std::uint32_t from, std::uint32_t sibling, std::uint32_t symmetry,
                                   double time) {
+  if (isSilent(from, sibling)) return makeSilent(from, time);
   ConnectedEdge edge;
   const auto [j, k] = graph_.passage(sibling);
   const ContactEvent& left = event(from);

@@ -15,10 +15,11 @@
 
 namespace ifa {
 
-/// An edge whose flight was made: everything in the frame of the event that is left, or of the one
+/// An edge whose flight, or silent passage, was made: everything in the frame of the event that is left, or of the one
 /// that is reached.
 struct ConnectedEdge {
   bool feasible = false;
+  bool silent = false;         ///< followed through silent contact, as simulated
   Connection connection;       ///< in the frame of the event that is left
   Placement placement;         ///< lays the reached event's frame into it
   RigidState arrival;          ///< in the reached event's frame
@@ -39,7 +40,7 @@ class PathConnector {
 
   /// Event `id` of the database, simulated again: in its own frame, from time 0, to the bit as its
   /// replay.
-  [[nodiscard]] const ContactEvent& event(std::uint32_t id);
+  [[nodiscard]] const ContactEvent& event(std::uint32_t id) { return link(id).event; }
   /// Lays the frame of sibling + 1, of its image under element `symmetry`, into that of event
   /// `from`; for an edge that has a flight or not.
   [[nodiscard]] Placement placement(std::uint32_t from, std::uint32_t sibling,
@@ -57,6 +58,10 @@ class PathConnector {
   [[nodiscard]] PlausibleRegion regionOf(std::uint32_t event);
 
  private:
+  /// Event `id`, and how its simulation goes on.
+  [[nodiscard]] const ChainLink& link(std::uint32_t id);
+  [[nodiscard]] bool isSilent(std::uint32_t from, std::uint32_t sibling) const;
+  [[nodiscard]] ConnectedEdge makeSilent(std::uint32_t from, double time);
   [[nodiscard]] ConnectedEdge make(std::uint32_t from, std::uint32_t sibling,
                                    std::uint32_t symmetry, double time);
   void weigh(std::uint32_t from, std::uint32_t sibling, double time, ConnectedEdge& edge);
@@ -67,7 +72,7 @@ class PathConnector {
   RecorderSettings recorder_;
   EventChain chain_;
   ConnectionSettings connection_;
-  std::unordered_map<std::uint32_t, ContactEvent> events_;
+  std::unordered_map<std::uint32_t, ChainLink> links_;
   std::map<std::tuple<int, std::uint32_t, std::uint32_t, std::uint32_t>, ConnectedEdge> edges_;
 };
 

@@ -110,6 +110,9 @@ struct PlannedContact {
   double retiming = 1;     ///< T* / T_b of it; 1 unless time is warped
   double arrivalBend = 0;  ///< length of the arrival change, in units of this contact's region
   Arrival arrival = Arrival::kFlight;
+  /// The silent contact that leads here goes on from the contact before without a new start, and
+  /// `event.before` is where it ends in single precision: so a database has it.
+  bool unbroken = false;
   ContactSource source;
 };
 

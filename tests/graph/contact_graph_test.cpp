@@ -168,8 +168,10 @@ TEST_F(ContactGraphTest, StartsAreTheBestOfAll) {
     const ContactEvent event = graph.event(j);
     const double time = 0.15 - r.duration;
     if (!(time > 0)) continue;
-    const EdgeWeight weight =
-        graph.edgeWeight({event.before, event.after}, {time, second.heard, false, r.amplitude}, j);
+    const TransitionTarget target = {time, second.heard, false, r.amplitude};
+    const bool silent = isLeftInSilence(database.flags(), j);
+    const EdgeWeight weight = silent ? graph.silentWeight(target, j)
+                                     : graph.edgeWeight({event.before, event.after}, target, j);
     const HeardEvent heard = graph.heard(j, r.amplitude);
     if (weight.exists()) {
       all.emplace_back(-weight.total() - logDuration(first, heard) - logCentroid(first, heard), j);

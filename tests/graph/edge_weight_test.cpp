@@ -191,6 +191,41 @@ TEST_F(EdgeWeightTest, NoTransitionToItselfCosts) {
   EXPECT_GT(edges, 100);
 }
 
+/// Followed as it was simulated, in a time that is up to 30 % another.
+TEST_F(EdgeWeightTest, SilenceIsFollowedAsItWas) {
+  const ContactGraph graph = graphOf(drops(), body());
+  const EventDatabase& database = graph.database();
+  int silent = 0, terminal = 0;
+  for (std::uint32_t i = 0; i < database.events(); ++i) {
+    const EventRecord record = database.record(i);
+    TransitionTarget own;
+    own.time = record.gap;
+    own.firstAmplitude = record.amplitude;
+    const bool touches =
+        record.has(EventRecord::kSilentPassage) || record.has(EventRecord::kTouchingAfter);
+    if (!record.has(EventRecord::kFollowed) || !touches) {
+      EXPECT_EQ(graph.silentWeight(own, i).refusal, EdgeRefusal::kNotFlight);
+      continue;
+    }
+    own.heard = graph.heard(i + 1, record.amplitude);
+    own.terminal = database.record(i + 1).has(EventRecord::kTerminal);
+    EXPECT_NEAR(graph.silentWeight(own, i).total(), 0, 1e-9);
+    own.time = 1.25 * record.gap;
+    const EdgeWeight slower = graph.silentWeight(own, i);
+    EXPECT_NEAR(slower.total(), logTimeWarp(own.time, record.gap), 1e-9);
+    EXPECT_LT(slower.total(), 0);
+    own.time = record.gap / 1.31;
+    EXPECT_EQ(graph.silentWeight(own, i).refusal, EdgeRefusal::kTime);
+    own.time = record.gap;
+    own.terminal = !own.terminal;
+    EXPECT_EQ(graph.silentWeight(own, i).refusal, EdgeRefusal::kEnd);
+    ++silent;
+    terminal += !own.terminal;
+  }
+  EXPECT_GT(silent, 10);
+  EXPECT_GT(terminal, 5);
+}
+
 TEST_F(EdgeWeightTest, EnergyMayGrowByTheGainOnly) {
   GraphSettings wide, free;
   wide.leastVelocity = free.leastVelocity = -300;

@@ -68,8 +68,8 @@ class GraphPlans : public testing::TestWithParam<Kind> {
                       .first->second;
     for (std::size_t n = 4; n <= 8; ++n) {
       for (const bool terminal : {false, true}) {
-        // With symmetry on the database need not hold the very drop.
-        const ContactGraph& heard = GetParam().symmetry ? others() : made.graph;
+        // The database need not hold the very drop.
+        const ContactGraph& heard = GetParam().cut == EventCut::kAudible ? others() : made.graph;
         for (const auto& signature : signaturesOf(heard, 2, n, terminal, n)) {
           Planned one{graphRequest(graphDie(), graphDieSurface(), made.graph, signature), {}, {}};
           one.plan = GraphPlanner(quickGraphSearch()).plan(one.request, {}).value().at(0);
@@ -87,6 +87,7 @@ class GraphPlans : public testing::TestWithParam<Kind> {
 
   // Each looks at all plans of the world.
   static void onlyBlendsWarpTime();
+  static void silenceIsThatOfADrop();
   static void scoresAreThoseOfTheMotion();
   static void flightsEndWhereTheNextEventBegins();
   static void placementsAreThoseOfTheImages();
@@ -94,13 +95,31 @@ class GraphPlans : public testing::TestWithParam<Kind> {
   static void theAuditFindsAnUnderstatedArrival();
 };
 
+/// What is not flown is followed in one simulation, unchanged but for its pace.
+void GraphPlans::silenceIsThatOfADrop() {
+  int silences = 0;
+  for (const Planned& one : world().planned) {
+    for (std::size_t i = 1; i < one.plan.contacts.size(); ++i) {
+      const PlannedContact &from = one.plan.contacts[i - 1], &to = one.plan.contacts[i];
+      EXPECT_EQ(to.unbroken, to.arrival == Arrival::kSilentContact);
+      if (!to.unbroken) continue;
+      EXPECT_EQ(to.source.simulation, from.source.simulation);
+      EXPECT_EQ(to.source.event, from.source.event + 1);
+      EXPECT_EQ(from.velocityChange.norm() + from.angularVelocityChange.norm(), 0);
+      EXPECT_LT(to.bend + to.arrivalBend, 1e-4);  // single precision
+      ++silences;
+    }
+  }
+  EXPECT_GE(silences, GetParam().cut == EventCut::kAudible ? 3 : 0);
+}
+
 void GraphPlans::onlyBlendsWarpTime() {
   double farthest = 0;
   for (const Planned& one : world().planned) {
     for (const PlannedContact& contact : one.plan.contacts) {
       const double amount = std::max(contact.retiming, 1 / contact.retiming) - 1;
       EXPECT_LT(amount, 0.3);
-      farthest = std::max(farthest, amount);
+      if (contact.arrival == Arrival::kFlight) farthest = std::max(farthest, amount);
     }
   }
   if (GetParam().connection == ConnectionKind::kExact) {
@@ -240,6 +259,7 @@ void GraphPlans::flightsEndWhereTheNextEventBegins() {
   for (const Planned& one : world().planned) {
     for (std::size_t i = 1; i < one.plan.contacts.size(); ++i) {
       const PlannedContact &from = one.plan.contacts[i - 1], &to = one.plan.contacts[i];
+      if (to.arrival != Arrival::kFlight) continue;
       RigidState departure = from.event.after;
       departure.velocity += from.velocityChange;
       departure.angularVelocity += from.angularVelocityChange;
@@ -313,7 +333,7 @@ void GraphPlans::theAuditFindsAnUnderstatedArrival() {
       break;
     }
   }
-  EXPECT_GE(tried, 3);
+  EXPECT_GE(tried, 1);
 }
 
 TEST_P(GraphPlans, MeetManySignaturesOfDropsAndHoldTheAudit) {
@@ -331,6 +351,7 @@ TEST_P(GraphPlans, MeetManySignaturesOfDropsAndHoldTheAudit) {
   }
   // Planning takes longest, so all that is to be seen of the plans is one test.
   onlyBlendsWarpTime();
+  silenceIsThatOfADrop();
   scoresAreThoseOfTheMotion();
   flightsEndWhereTheNextEventBegins();
   placementsAreThoseOfTheImages();
@@ -343,7 +364,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Kind{"Exact", ConnectionKind::kExact, VelocityReference::kBlend, 8},
                     Kind{"ExactPrinted", ConnectionKind::kExact, VelocityReference::kPrinted, 7},
                     Kind{"Blend", ConnectionKind::kBlend, VelocityReference::kBlend, 10},
-                    Kind{"BlendPrinted", ConnectionKind::kBlend, VelocityReference::kPrinted, 10},
+                    Kind{"BlendPrinted", ConnectionKind::kBlend, VelocityReference::kPrinted, 8},
                     Kind{"PapersCut", ConnectionKind::kBlend, VelocityReference::kPrinted, 8,
                          EventCut::kPaper},
                     Kind{"PapersCutExact", ConnectionKind::kExact, VelocityReference::kBlend, 6,

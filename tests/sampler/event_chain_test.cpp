@@ -126,6 +126,10 @@ TEST(PackedState, ComesBackFromItsOwnUnpackedState) {
   for (std::uint64_t i = 0; i < 200; ++i) {
     const RigidState state = sampleInitialState(die, 3, i);
     const RigidState back = unpack(pack(state));
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_EQ(back.velocity[axis], static_cast<float>(state.velocity[axis]));
+      EXPECT_EQ(back.angularVelocity[axis], static_cast<float>(state.angularVelocity[axis]));
+    }
     EXPECT_NEAR(back.orientation.norm(), 1, 1e-15);
     EXPECT_LT(back.orientation.angularDistance(state.orientation), 1e-6);
     EXPECT_NEAR(back.position.z(), state.position.z(), 1e-9);
