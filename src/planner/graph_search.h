@@ -60,8 +60,8 @@ class GraphSearch {
   [[nodiscard]] std::optional<GraphPath> next();
   /// The longest path whose connections are made, for when there is no complete one.
   [[nodiscard]] const GraphPath& farthest() const { return farthest_; }
-  /// Looks on from there, whatever `stop` says, with a tenth of what was spent: no path may have led
-  /// to the horizon, and how far one leads says which contact is the one to blame.
+  /// Looks on from there, whatever `stop` says, with a tenth of what was spent: no path may have
+  /// led to the horizon, and how far one leads says which contact is the one to blame.
   void reachFarthest();
   [[nodiscard]] long queries() const { return queries_; }
   /// Tells how much of the signature the path that is being made has met, 0 to 1.

@@ -30,14 +30,13 @@ void LookAhead::rate(int level, GraphChild& child) const {
   const EdgeWeight silence = graph_.silentWeight(own, event);
   child.bound = silence.exists() ? std::max(next.bound, silence.timeWarp) : next.bound;
   if (graph_.settings().velocityReference == VelocityReference::kPrinted) return;
-  child.worth += silence.exists() ? silence.timeWarp
-                                  : ownFlight(event, own).value_or(next.guess - kNoOwnWay);
+  child.worth +=
+      silence.exists() ? silence.timeWarp : ownFlight(event, own).value_or(next.guess - kNoOwnWay);
 }
 
 /// What it would take to follow the event's own flight, in another time: it need not be the best
 /// edge, but where it is a good one, there are others like it.
-std::optional<double> LookAhead::ownFlight(std::uint32_t event,
-                                           const TransitionTarget& own) const {
+std::optional<double> LookAhead::ownFlight(std::uint32_t event, const TransitionTarget& own) const {
   const auto flags = graph_.database().flags();
   if ((flags[event] & EventRecord::kFollowed) == 0) return {};
   const ContactEvent from = graph_.event(event);

@@ -15,8 +15,8 @@
 
 namespace ifa {
 
-/// An edge whose flight, or silent passage, was made: everything in the frame of the event that is left, or of the one
-/// that is reached.
+/// An edge whose flight, or silent passage, was made: everything in the frame of the event that is
+/// left, or of the one that is reached.
 struct ConnectedEdge {
   bool feasible = false;
   bool silent = false;         ///< followed through silent contact, as simulated

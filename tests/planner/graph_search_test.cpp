@@ -245,9 +245,8 @@ TEST_P(GraphSearchOracle, FindsTheBestOfAllPathsSlow) {
   EXPECT_GE(tally.lazy, GetParam().lazy);
   EXPECT_GE(tally.closed, GetParam().closed);
   EXPECT_GE(tally.silent, GetParam().silent);
-  RecordProperty("tally", ::testing::PrintToString(
-                              std::vector{tally.met, tally.lazy, tally.unmet,
-                                                      tally.closed, tally.silent}));
+  RecordProperty("tally", ::testing::PrintToString(std::vector{tally.met, tally.lazy, tally.unmet,
+                                                               tally.closed, tally.silent}));
 }
 
 /// Once its best path is taken, the search goes on to the best one from another start.
