@@ -77,8 +77,8 @@ if compare 'd6 and clicks' 1280 720 240 1 6 800 >"$work/log" 2>&1; then
 fi
 # Of the cases one whose motion comes down steeply: a corner that hovers a pixel over the floor
 # before it touches is seen to touch too early.
-clicks d20 d20-05
-check 'd20 and clicks' 1280 720 240 1 9 d20-05
+clicks d20 d20-11
+check 'd20 and clicks' 1280 720 240 1 9 d20-11
 clicks Eraser Eraser-04
 check 'eraser and clicks' 960 540 240 1 4 Eraser-04
 check 'd6 and clicks, quarter speed' 1280 720 60 0.25 6 d6-01
