@@ -36,6 +36,8 @@ PlanarTransform laying(const Vector2d& from, const Vector2d& to, const Vector2d&
   return plane;
 }
 
+constexpr double kMostMissed = 0.02;  ///< m
+
 }  // namespace
 
 const PlannedPosition* PositionWishes::wishFor(std::size_t level) const {
@@ -103,6 +105,12 @@ void PositionWishes::settle(Plan& plan) const {
   for (PlannedContact& contact : plan.contacts) {
     contact.placement = placement.after(contact.placement);
   }
+}
+
+bool PositionWishes::met(const Plan& settled) {
+  const double least = std::exp(logPositionWish(kMostMissed));
+  return std::all_of(settled.contacts.begin(), settled.contacts.end(),
+                     [&](const PlannedContact& contact) { return contact.factors.p >= least; });
 }
 
 }  // namespace ifa

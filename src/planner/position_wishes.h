@@ -40,6 +40,8 @@ class PositionWishes {
                             Registered& registered) const;
   /// Lays the plan where the wishes are, and sets f_p of its contacts.
   void settle(Plan& plan) const;
+  /// Whether each is met to 2 cm.
+  [[nodiscard]] static bool met(const Plan& settled);
 
  private:
   /// Of that contact.

@@ -6,7 +6,6 @@
 #include <atomic>
 #include <cmath>
 
-#include "affinity/factors.h"
 #include "base/stopwatch.h"
 #include "planner/check_request.h"
 #include "planner/shooting_plan.h"
@@ -32,8 +31,6 @@ constexpr double kWarpedCost = 1.3;
 constexpr std::array kLastWidths = {0.5, 1.0};
 constexpr int kLastRounds = 3;
 constexpr std::size_t kLastWays = 12;
-/// What misses a place that was asked for by more, m, is looked for on like what is not there.
-constexpr double kMissed = 0.02;
 /// The last contacts but one are too late to find another way to rest.
 constexpr std::size_t kTooLate = 2;
 
@@ -81,13 +78,7 @@ class ShootingRun {
   }
 
   /// Whether there is a plan that is near enough to all places that are asked for.
-  bool found() {
-    if (takes_.plans().empty()) return false;
-    const auto& contacts = takes_.plans()[0].contacts;
-    const double least = std::exp(logPositionWish(kMissed));
-    return std::all_of(contacts.begin(), contacts.end(),
-                       [&](const PlannedContact& contact) { return contact.factors.p >= least; });
-  }
+  bool found() { return !takes_.plans().empty() && PositionWishes::met(takes_.plans()[0]); }
 
   /// Makes a pass; whether another one may help.
   bool goesOn(int pass, int passes, double wide) {

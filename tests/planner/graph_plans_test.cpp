@@ -54,6 +54,18 @@ class GraphPlans : public testing::TestWithParam<Kind> {
     std::vector<Planned> planned;
     int solved = 0;
   };
+  /// Of drops that the database holds, and of others.
+  static std::vector<ContactSignature> heardSignatures(const ContactGraph& graph, std::size_t n,
+                                                       bool terminal) {
+    const bool paper = GetParam().cut == EventCut::kPaper;
+    const std::size_t held = paper ? 2 : GetParam().symmetry ? 0 : 1;
+    const std::size_t more = paper ? 0 : 2 + held;
+    auto all = signaturesOf(graph, held, n, terminal, n);
+    for (const auto& other : signaturesOf(others(), more, n, terminal, n)) {
+      all.push_back(other);
+    }
+    return all;
+  }
   /// Signatures of 4 to 8 contacts, planned once for all tests of a kind.
   static World& world() {
     static std::map<std::string, World> all;
@@ -68,9 +80,7 @@ class GraphPlans : public testing::TestWithParam<Kind> {
                       .first->second;
     for (std::size_t n = 4; n <= 8; ++n) {
       for (const bool terminal : {false, true}) {
-        // The database need not hold the very drop.
-        const ContactGraph& heard = GetParam().cut == EventCut::kAudible ? others() : made.graph;
-        for (const auto& signature : signaturesOf(heard, 2, n, terminal, n)) {
+        for (const auto& signature : heardSignatures(made.graph, n, terminal)) {
           Planned one{graphRequest(graphDie(), graphDieSurface(), made.graph, signature), {}, {}};
           one.plan = GraphPlanner(quickGraphSearch()).plan(one.request, {}).value().at(0);
           auto motion = buildMotion(one.request, one.plan, 0.3);
@@ -330,14 +340,14 @@ void GraphPlans::theAuditFindsAnUnderstatedArrival() {
       ASSERT_NE(check, nullptr);
       EXPECT_FALSE(check->passed);
       ++tried;
-      break;
     }
   }
-  EXPECT_GE(tried, 1);
+  EXPECT_GE(tried, 3);
 }
 
 TEST_P(GraphPlans, MeetManySignaturesOfDropsAndHoldTheAudit) {
-  EXPECT_EQ(world().planned.size(), 20U);
+  const bool both = GetParam().cut == EventCut::kAudible && !GetParam().symmetry;
+  EXPECT_EQ(world().planned.size(), both ? 40U : 20U);
   EXPECT_GE(world().solved, GetParam().solved);
   for (const Planned& one : world().planned) {
     if (!one.plan.solved) continue;
@@ -364,7 +374,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Kind{"Exact", ConnectionKind::kExact, VelocityReference::kBlend, 8},
                     Kind{"ExactPrinted", ConnectionKind::kExact, VelocityReference::kPrinted, 7},
                     Kind{"Blend", ConnectionKind::kBlend, VelocityReference::kBlend, 10},
-                    Kind{"BlendPrinted", ConnectionKind::kBlend, VelocityReference::kPrinted, 8},
+                    Kind{"BlendPrinted", ConnectionKind::kBlend, VelocityReference::kPrinted, 10},
                     Kind{"PapersCut", ConnectionKind::kBlend, VelocityReference::kPrinted, 8,
                          EventCut::kPaper},
                     Kind{"PapersCutExact", ConnectionKind::kExact, VelocityReference::kBlend, 6,

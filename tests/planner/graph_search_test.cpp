@@ -197,7 +197,7 @@ class GraphSearchOracle : public testing::TestWithParam<Kind> {
     std::vector<ContactSignature> all;
     for (std::size_t n = 3; n <= 5; ++n) {
       for (const bool terminal : {false, true}) {
-        const auto some = signaturesOf(graph_, 5, n, terminal, n, {0.01, 0.3});
+        const auto some = signaturesOf(graph_, 18, n, terminal, n, {0.01, 0.3});
         all.insert(all.end(), some.begin(), some.end());
         all.push_back(some[0]);
         all.back().events.back().time += 3;
@@ -354,10 +354,10 @@ TEST_P(GraphSearchOracle, PlacesAreWeighedAlong) {
 INSTANTIATE_TEST_SUITE_P(
     Kinds, GraphSearchOracle,
     testing::Values(
-        Kind{"Exact", ConnectionKind::kExact, VelocityReference::kBlend, 30, 4, 6},
-        Kind{"ExactPrinted", ConnectionKind::kExact, VelocityReference::kPrinted, 30, 6, 6},
-        Kind{"Blend", ConnectionKind::kBlend, VelocityReference::kBlend, 18, 2, 8},
-        Kind{"BlendPrinted", ConnectionKind::kBlend, VelocityReference::kPrinted, 18, 1, 7},
+        Kind{"Exact", ConnectionKind::kExact, VelocityReference::kBlend, 30, 13, 6},
+        Kind{"ExactPrinted", ConnectionKind::kExact, VelocityReference::kPrinted, 30, 15, 6},
+        Kind{"Blend", ConnectionKind::kBlend, VelocityReference::kBlend, 18, 3, 15},
+        Kind{"BlendPrinted", ConnectionKind::kBlend, VelocityReference::kPrinted, 18, 3, 15},
         Kind{"Symmetric", ConnectionKind::kExact, VelocityReference::kBlend, 12, 3, 6, true}),
     [](const auto& kind) { return std::string(kind.param.name); });
 
