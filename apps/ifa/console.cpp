@@ -19,6 +19,17 @@ void writeLine(std::FILE* stream, std::string_view text) {
   std::fflush(stream);
 }
 
+// What names of files and faces hold is told, not done: no colours, no moved cursor.
+std::string printable(std::string_view text) {
+  std::string all;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool control = (byte < 0x20 && c != '\n' && c != '\t') || byte == 0x7f;
+    all += control ? fmt::format("\\x{:02x}", byte) : std::string(1, c);
+  }
+  return all;
+}
+
 // A file name may hold any bytes; a line of JSON may not.
 void writeJson(const Json& json) {
   writeLine(stderr, json.dump(-1, ' ', false, Json::error_handler_t::replace));
@@ -53,7 +64,7 @@ void Console::line(std::string_view kind, std::string_view text) {
     return;
   }
   clearProgress();
-  writeLine(stderr, kind == "info" ? std::string(text) : fmt::format("{}: {}", kind, text));
+  writeLine(stderr, printable(kind == "info" ? text : fmt::format("{}: {}", kind, text)));
 }
 
 void Console::progress(std::string_view stage, double share) {
@@ -110,7 +121,7 @@ void Console::failure(const Error& error) {
     return;
   }
   clearProgress();
-  writeLine(stderr, "ifa: " + error.text());
+  writeLine(stderr, printable("ifa: " + error.text()));
 }
 
 void Console::success(std::string_view output) {

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string_view>
 
+#include "pipeline/wishes.h"
+
 namespace ifa {
 
 namespace {
@@ -21,14 +23,6 @@ std::optional<Eigen::Vector3d> parseVector(std::string_view text) {
     if (axis < 2 && (at == end || *at++ != ',')) return {};
   }
   return at == end ? std::optional(vector) : std::nullopt;
-}
-
-std::optional<int> parseContact(std::string_view text) {
-  if (text == "last") return 0;
-  int number = 0;
-  const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
-  const bool whole = read.ec == std::errc() && read.ptr == text.data() + text.size();
-  return whole && number > 0 ? std::optional(number) : std::nullopt;
 }
 
 std::optional<Eigen::Vector3d> parseWorld(std::string_view text) {
@@ -49,7 +43,7 @@ Result<OrientationWish> parseOrientation(const std::string& text) {
     return wrong("is not CONTACT:FACE=DIRECTION");
   }
   OrientationWish wish;
-  const auto contact = parseContact(std::string_view(text).substr(0, colon));
+  const auto contact = contactNumber(std::string_view(text).substr(0, colon));
   if (!contact) return wrong("does not begin with a contact's number, from 1, or last");
   wish.contact = *contact;
   const auto world = parseWorld(std::string_view(text).substr(equals + 1));

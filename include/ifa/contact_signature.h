@@ -16,6 +16,9 @@ struct AlternativeStart {
 /// Of one event; each is one search more.
 inline constexpr std::size_t kMaxAlternatives = 16;
 
+/// Log units for leaving out an event of weight 1.
+inline constexpr double kDropPrice = 6;
+
 /// One contact event of a sound (IFA section 3).
 struct SignatureEvent {
   double time = 0;       ///< start, s after the first event's start

@@ -96,10 +96,7 @@ Result<std::vector<PlannedPosition>> plannedPositions(std::vector<PositionWish> 
   return planned;
 }
 
-namespace {
-
-/// From 1; "last" is 0.
-std::optional<int> contactOf(std::string_view text) {
+std::optional<int> contactNumber(std::string_view text) {
   constexpr double kMostContacts = 1e6;
   if (text == "last") return 0;
   const auto number = numberOf(text);
@@ -108,6 +105,8 @@ std::optional<int> contactOf(std::string_view text) {
   }
   return static_cast<int>(*number);
 }
+
+namespace {
 
 /// "3<TAB>0.12<TAB>-0.05"
 std::optional<PositionWish> parsePosition(std::string_view line) {
@@ -119,7 +118,7 @@ std::optional<PositionWish> parsePosition(std::string_view line) {
     line.remove_prefix(tab + 1);
   }
   if (fields.size() != 3) return {};
-  const auto contact = contactOf(fields[0]);
+  const auto contact = contactNumber(fields[0]);
   const auto x = numberOf(fields[1]), y = numberOf(fields[2]);
   if (!contact || !x || !y || !std::isfinite(*x) || !std::isfinite(*y)) return {};
   return PositionWish{*contact, {*x, *y}};

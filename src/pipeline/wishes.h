@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include "body/body.h"
@@ -18,6 +20,9 @@ namespace ifa {
 [[nodiscard]] Result<std::vector<PlannedOrientation>> plannedOrientations(
     const std::vector<OrientationWish>& wishes, const Body& body,
     const ContactSignature& signature);
+
+/// A contact as users name it: its number from 1, or `last`, which is 0. None for other text.
+[[nodiscard]] std::optional<int> contactNumber(std::string_view text);
 
 /// A line for each: number of the contact from 1 or `last`, x and y in metres, tabs between. Lines
 /// that begin with # say nothing. Errors: kBadInput with the line; at most 1 MiB.

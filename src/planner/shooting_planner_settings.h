@@ -37,7 +37,6 @@ struct ShootingPlannerSettings {
   /// of the gap is 1.
   double silentReach = 2.5;
   double restitutionRange = 0.2;  ///< share by which a contact may be livelier or deader
-  double dropPenalty = 6;         ///< log units for an event of weight 1 that was dropped
   int passes = 10;                ///< searches with other seeds and wider beams, at most
   double widest = 2.5;            ///< no pass is wider than so many times the first
   /// Of motion simulated, after which no other pass begins, but for further takes.

@@ -80,8 +80,7 @@ double ShootingWorker::mergeGapOf(std::size_t level) const {
 double ShootingWorker::droppedBetween(int from, int to) const {
   double penalty = 0;
   for (int k = from + 1; k < to; ++k) {
-    penalty += problem_.settings.dropPenalty *
-               problem_.request.signature.events[static_cast<std::size_t>(k)].weight;
+    penalty += kDropPrice * problem_.request.signature.events[static_cast<std::size_t>(k)].weight;
   }
   return penalty;
 }

@@ -73,12 +73,8 @@ bool tellTheirAmplitudes(const std::vector<Label>& labels) {
 
 /// Contacts that are heard more surely must be met.
 constexpr double kSure = 0.9;
-/// Log units for leaving out a mark of weight 1; to begin an event without it costs as much
-/// (ShootingPlannerSettings::dropPenalty).
-constexpr double kDropPrice = 6;
-
 /// The largest says how loud both are together, and that they must be met. If the first mark is a
-/// false one, the event begins with the second.
+/// false one, the event begins with the second, at the price of leaving out a mark.
 void join(Label& label, const Label& next) {
   if (label.weight < 1 && label.alternatives.size() < kMaxAlternatives) {
     label.alternatives.push_back({next.start, kDropPrice * label.weight});

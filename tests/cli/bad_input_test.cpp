@@ -138,5 +138,12 @@ TEST_F(BadPlace, FolderWithoutASoundIsRefused) {
   EXPECT_THAT(result.err, HasSubstr(folder_ / "in"));
 }
 
+TEST_F(BadPlace, NamesDoNotMoveTheCursor) {
+  const auto result = runProgram(
+      {"sync", folder_ / "\x1b[31m\a\u00e4.wav", "--object", "d6", "-o", folder_ / "out"});
+  EXPECT_EQ(result.exit, 3);
+  EXPECT_THAT(result.err, HasSubstr("\\x1b[31m\\x07\u00e4.wav"));
+}
+
 }  // namespace
 }  // namespace ifa::test
