@@ -205,12 +205,12 @@ struct Way {
 
 std::vector<Way> ways(double depth) {
   ConnectionSettings exact, departure, wide, printed = ConnectionSettings::printed();
-  departure.registerAt = ifa::RegisterAt::kDeparture;
-  wide.registerAt = ifa::RegisterAt::kDeparture;
-  wide.shooting.largestTurn = 0.5235987756;  // 30 degrees
   ConnectionSettings vector = printed;
-  vector.shooting = exact.shooting;
-  std::vector<Way> all = {{"exact", exact},
+  vector.shooting = wide.shooting;
+  exact.registerAt = ifa::RegisterAt::kArrival;
+  exact.shooting.largestTurn = printed.shooting.largestTurn;
+  departure.shooting.largestTurn = printed.shooting.largestTurn;
+  std::vector<Way> all = {{"exact, at arrival", exact},
                           {"exact, at departure", departure},
                           {"the same, 30 degrees", wide},
                           {"printed", printed},

@@ -96,7 +96,7 @@ OBJECTS = {
                        0.35, "420 x 220 x 6 mm, solid; its hook counts as plastic, which is 2 g "
                        "less than steel."),
     "Dustpan": Item("Dustpan", household.make_dustpan, 0.200, "polypropylene", 0.5, 0.4,
-                    "310 x 230 x 80 mm with its handle. The mesh has both sides of the walls, each "
+                    "312 x 230 x 76 mm with its handle. The mesh has both sides of the walls, each "
                     "with half of the shell's mass.", "shell", ("wood", "carpet")),
     "CreditCard": Item("Credit card", papers.make_credit_card, 0.005, "PVC", 0.4, 0.35,
                        "85.6 x 54 x 0.76 mm, solid; the print lies flush."),

@@ -26,7 +26,8 @@ SECTIONS = [
      "[evaluation sets](../evaluation.md): drops of another engine, with wrong restitution and size, heard with errors. "
      "*f_v* is the geometric mean over contacts."),
     ("planners", "Planners side by side", ["Charts"], "The first five signatures of each row. `graph` is the paper's search, with "
-     "events that also stand for their images under the body's symmetry, no early exit, time of the processor."),
+     "events that also stand for their images under the body's symmetry, no early exit. The limit of 60 s and *s to 0.3* are of the processor; *search* and *wall* "
+     "are by the clock, two searches at a time."),
     ("paper_cut", "The paper's own cut of events", ["Charts"], "Planner `graph` as above, but every impulse above zero is "
      "part of an event, as in the paper: databases, and signatures of the same drops, cut likewise. The first three of each "
      "row."),

@@ -21,7 +21,7 @@ run() {
   log=$build/fuzz_$name.log
   mkdir -p "$build/corpus/$name" "$build/found/$name"
   # libsndfile and assimp leak where they give up on a file; that is theirs to mend.
-  # What assimp does not come to an end with is ended after two seconds of its own.
+  # What assimp does not come to an end with is ended after little more than a second of its own.
   case $name in sound | mesh) leaks=0 timeout=120 ;; *) leaks=1 timeout=20 ;; esac
   if ASAN_OPTIONS=detect_leaks=$leaks "$build/bin/fuzz_$name" \
     -max_total_time="$seconds" -seed="${FUZZ_SEED:-0}" -max_len=16384 -timeout=$timeout \

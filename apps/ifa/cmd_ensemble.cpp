@@ -73,7 +73,7 @@ void addEnsembleCommand(CLI::App& app, CommandContext& context) {
   CLI::App* command = app.add_subcommand("ensemble", "let several objects play a score");
   command
       ->add_option("SCORE", options->settings.score,
-                   "score file (docs/music.md), or a MIDI file: a body for each channel")
+                   "score file (docs/music.md), or a MIDI file: a part for each channel")
       ->required();
   command->add_option("-o,--out", options->output, "folder for the results")->required();
   command->add_option("--object", options->settings.object,

@@ -2,6 +2,7 @@
 // `ifa evaluate`: a set of cases as the paper's Table 1.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -81,10 +82,14 @@ int runEvaluate(EvaluateOptions options, CommandContext& context) {
     options.settings.orientations.push_back(*wish);
   }
   std::error_code code;
-  if (fs::is_regular_file(options.inputs.front(), code)) return combineReports(options, context);
-  if (options.inputs.size() > 1) {
+  const auto isFolder = [&](const fs::path& path) { return fs::is_directory(path, code); };
+  const bool several = options.inputs.size() > 1;
+  if (several && std::any_of(options.inputs.begin(), options.inputs.end(), isFolder)) {
     return context.fail({ErrorCode::kUsage, "only reports can be several", "DIR",
                          "give one folder of cases, or files that ifa evaluate wrote"});
+  }
+  if (several || fs::is_regular_file(options.inputs.front(), code)) {
+    return combineReports(options, context);
   }
   options.settings.folder = options.inputs.front();
   return runSet(options, context);

@@ -122,7 +122,7 @@ def make_coat_hanger():
 
 
 def make_dustpan():
-    """310 x 230 x 80 mm with its handle: a tray with sides that rise to the back, a rubber lip in
+    """312 x 230 x 76 mm with its handle: a tray with sides that rise to the back, a rubber lip in
     front, a handle with a hole to hang it by."""
     wall = 2.2
     # From the front: x, half the width, height of the sides, height of the floor below.

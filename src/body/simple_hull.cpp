@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Starts with a tetrahedron and adds, round by round, the corner that lies furthest outside each
-// triangle, the furthest first, until there are enough.
+// Starts with a tetrahedron and the corners that reach furthest in evenly spread directions, and
+// adds, round by round, the corner that lies furthest outside each triangle, the furthest first,
+// until there are enough.
 #include "body/simple_hull.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Time warp: a flight shown at another, even pace. IFA 5.3.2, docs/method.md 7.
+// Time warp: a flight shown at another, even pace. IFA 5.3.2, docs/connections.md.
 #pragma once
 
 #include "model/rigid_state.h"
@@ -12,7 +12,7 @@ struct TimeWarp {
   double flightTime = 0;  ///< T_b, s, > 0
   double shownTime = 0;   ///< T*, s, > 0
 
-  /// T* / T_b, the retiming of docs/method.md 9; 1 where nothing is warped.
+  /// T* / T_b, `retiming` of motion.json; 1 where nothing is warped.
   [[nodiscard]] double stretch() const { return shownTime / flightTime; }
   /// T_eval of eq. 5.
   [[nodiscard]] double amount() const {

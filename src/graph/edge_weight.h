@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Weight of an edge of the contact-event graph: the one place where equations 1 to 11 are put
-// together. IFA 5.4, docs/method.md 5.
+// together. IFA 5.4, docs/method.md 4.
 #pragma once
 
 #include <cstdint>

@@ -11,7 +11,7 @@ namespace ifa {
 
 /// What the linear part of eq. 3 compares v_blend with.
 enum class VelocityReference {
-  /// v_{i+}, which the contact impulse really has to make up. The default (docs/method.md, 5).
+  /// v_{i+}, which the contact impulse really has to make up. The default (docs/method.md, 4).
   kBlend,
   /// v_{j+}, as printed: after registration little more than the difference in height is left.
   kPrinted,

@@ -10,7 +10,7 @@
 
 namespace ifa {
 
-/// Trajectory, contacts and scores of `plan` (docs/method.md 8). Leaves `sound`, `program`, `seed`
+/// Trajectory, contacts and scores of `plan` (docs/method.md 7). Leaves `sound`, `program`, `seed`
 /// and `searchSeconds` to the caller.
 /// @param preRoll  s of flight before the first contact, cut where an earlier contact would lie
 /// Errors: kInternal when a replay does not give the planned state.

@@ -16,10 +16,10 @@
 namespace ifa {
 namespace {
 
-constexpr double kSolvedScore = 0.5;      // method, 5
+constexpr double kSolvedScore = 0.5;      // method, 4
 constexpr double kStartTolerance = 1e-4;  // s, likewise
 
-/// The paper's planner may have any Score (method, 5).
+/// The paper's planner may have any Score (method, 4).
 bool isSolved(const Motion& motion, const std::string& planner, const CaseOutcome& outcome) {
   return motion.success && outcome.contacts == static_cast<int>(motion.contacts.size()) &&
          (planner == "graph" || outcome.score >= kSolvedScore) &&

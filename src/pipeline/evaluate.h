@@ -57,7 +57,7 @@ struct PlaceErrors {
 /// What came out of a case.
 struct CaseOutcome {
   EvaluationCase what;
-  bool solved = false;  ///< docs/method.md 5
+  bool solved = false;  ///< docs/method.md 4
   bool done = false;    ///< false: not begun, or cut off by an interruption
   std::string failure;  ///< why it is not solved
   int contacts = 0;     ///< n, events of the filtered signature

@@ -16,7 +16,7 @@ inline constexpr double kDifferentShare = 0.1;
 /// Where the contacts begin, and where the last one ends: world, from above, m.
 [[nodiscard]] std::vector<Eigen::Vector2d> pathOf(const Plan& plan);
 
-/// Whether two plans are different takes (docs/method.md 6): after the best planar registration,
+/// Whether two plans are different takes (docs/planner.md): after the best planar registration,
 /// and whatever element of the group is applied, their final poses differ by over 20 degrees, or
 /// some contact (or the end) lies over 10 % of the path's length apart. Decision: registered by
 /// their paths and by their final poses; one that makes them the same is enough. A mirror image is

@@ -12,7 +12,7 @@
 
 namespace ifa {
 
-/// A plan below this Score is not called solved (docs/method.md 5).
+/// A plan below this Score is not called solved (docs/method.md 4).
 inline constexpr double kLeastScore = 0.5;
 
 /// Different takes, best first. The problem must outlive it.

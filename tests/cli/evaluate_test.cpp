@@ -48,6 +48,7 @@ TEST(Evaluate, RefusesWhatItCannotPutTogether) {
   writeText(folder / "no.json", R"({"format": "inverse-foley-motion"})");
   const auto motion = runProgram({"evaluate", folder / "no.json"});
   EXPECT_EQ(motion.exit, 3);
+  EXPECT_EQ(runProgram({"evaluate", folder / "no.json", folder / "a"}).exit, 2);
   EXPECT_THAT(motion.err, HasSubstr("'format' is another format"));
 }
 

@@ -128,7 +128,7 @@ double shareConverged(const ShootingSettings& settings, const char* name) {
 
 TEST(AngularConnection, ConvergesForNeighboursOfFastTumblers) {
   ShootingSettings settings, wide, printed;
-  wide.largestTurn = 0.5235987756;
+  settings.largestTurn = 0.1745329252;
   printed.step = ShootingStep::kSquaredAngle;
   printed.tolerance = 1e-6;
   EXPECT_GT(shareConverged(settings, "10 degrees"), 0.85);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Targets: sounds, objects and their meshes, databases.
+// Targets: sounds, objects and their meshes, databases, scores, motions.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +12,7 @@
 #include "database/journal.h"
 #include "ensemble/ensemble_file.h"
 #include "ensemble/voices.h"
+#include "export/motion_json.h"
 #include "fuzz/fuzz_targets.h"
 #include "fuzz/scratch.h"
 #include "sound/onset_detector.h"
@@ -51,6 +52,15 @@ void readAsEnsemble(std::string_view bytes) {
     require(again->bodies[i].place.turn == ensemble->bodies[i].place.turn);
     require(again->bodies[i].place.shift == ensemble->bodies[i].place.shift);
   }
+}
+
+void readAsMotion(std::string_view bytes) {
+  const auto motion = parseMotion(bytes, "motion.json");
+  if (!motion) return;
+  const auto written = formatMotion(*motion);
+  require(written.has_value());
+  const auto again = parseMotion(*written, "motion.json");
+  require(again && formatMotion(*again).value_or("") == *written);
 }
 
 void readAsObject(std::string_view bytes) {

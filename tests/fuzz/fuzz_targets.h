@@ -21,13 +21,14 @@ void readAsMesh(std::string_view bytes);
 void readAsDatabase(std::string_view bytes);
 void readAsScore(std::string_view bytes);
 void readAsEnsemble(std::string_view bytes);
+void readAsMotion(std::string_view bytes);
 
 struct Target {
   std::string_view name;  ///< also of its folder in tests/fuzz/corpus
   void (*run)(std::string_view bytes);
 };
 
-inline constexpr std::array<Target, 11> kTargets = {{{"labels", readAsLabels},
+inline constexpr std::array<Target, 12> kTargets = {{{"labels", readAsLabels},
                                                      {"csv", readAsCsv},
                                                      {"midi", readAsMidi},
                                                      {"cues", readAsCues},
@@ -37,6 +38,7 @@ inline constexpr std::array<Target, 11> kTargets = {{{"labels", readAsLabels},
                                                      {"mesh", readAsMesh},
                                                      {"database", readAsDatabase},
                                                      {"score", readAsScore},
-                                                     {"ensemble", readAsEnsemble}}};
+                                                     {"ensemble", readAsEnsemble},
+                                                     {"motion", readAsMotion}}};
 
 }  // namespace ifa::fuzz
