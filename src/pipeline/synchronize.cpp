@@ -180,7 +180,7 @@ Result<Fit> plan(const SynchronizeSettings& settings, const Job& job, const Prog
   Progress again;
   again.stop = progress.stop;
   again.report = [&](std::string_view stage, double share) {
-    progress(stage == "search" ? "search on" : stage, share);
+    progress(stage == "search" ? "eased search" : stage, share);
   };
   auto plans = job.planner->plan(eased.request, again);
   if (!plans || !plans->front().solved) return found;

@@ -52,11 +52,11 @@ class ShootingRun {
     const double budget = settings_.passes * request_.settings.effort;
     const int passes = std::max(1, static_cast<int>(std::lround(budget)));
     const double width = std::min(1.0, budget);
-    const double most = settings_.mostPieces * request_.settings.effort;
+    most_ = settings_.mostPieces * request_.settings.effort;
     for (int pass = 0; pass < passes && !stop(); ++pass) {
       // Further takes have a price of their own.
       const bool more = request_.settings.takes > 1 && found();
-      if (!more && static_cast<double>(pieces_) > most) break;
+      if (!more && static_cast<double>(pieces_) > most_) break;
       const double wide = work_.width(std::min(settings_.widest, width + 0.5 * pass));
       if ((work_.priced() && wide < kNarrowestPass) || !goesOn(pass, passes, wide)) break;
     }
@@ -80,11 +80,25 @@ class ShootingRun {
   /// Whether there is a plan that is near enough to all places that are asked for.
   bool found() { return !takes_.plans().empty() && PositionWishes::met(takes_.plans()[0]); }
 
+  void tell(double share) {
+    told_ = std::clamp(share, told_, 1.0);
+    progress_(stage_, told_);
+  }
+
+  /// Tells how far the passes are, by their number, by what they may simulate, by which what is
+  /// hard ends, or by the takes that there are.
+  void tell(const ShootingSearch& running, double passes) {
+    const double pieces = static_cast<double>(pieces_ + running.work().pieces);
+    const int wanted = request_.settings.takes;
+    const double takes = wanted > 1 ? static_cast<double>(takes_.plans().size()) / wanted : 0;
+    tell(std::min(1.0, std::max({passes, pieces / most_, takes})));
+  }
+
   /// Makes a pass; whether another one may help.
   bool goesOn(int pass, int passes, double wide) {
     ShootingSearch search(problem_, static_cast<std::uint64_t>(pass), wide, hard_);
     search.run([this] { return stop(); },
-               [&](double share) { progress_("search", (pass + share) / passes); });
+               [&](double share) { tell(search, (pass + share) / passes); });
     pieces_ += search.work().pieces;
     work_.count(search.work().cost());
     takes_.add(search);
@@ -120,7 +134,11 @@ class ShootingRun {
   double goOn(const ShootingProblem& problem, const ShootingSearch& search, double wide,
               ShootingSearch::Beginning beginning) {
     ShootingSearch more(problem, search, kResumed + resumed_++, wide, std::move(beginning));
-    more.run([this] { return stop(); }, [](double) {});
+    more.run([this] { return stop(); },
+             [&](double share) {
+               if (lastSearches_ == 0) return tell(more, 0);
+               tell((lastSearch_ + share) / lastSearches_);
+             });
     pieces_ += more.work().pieces;
     takes_.add(more);
     return more.work().cost();
@@ -137,8 +155,14 @@ class ShootingRun {
   void warpAtLast() {
     const PlanRequest request = warpedRequest();
     const ShootingProblem warped(problem_, request);
+    lastSearches_ = static_cast<int>(kLastWidths.size() * failed_.size()) * kLastRounds;
+    stage_ = "search on";
+    told_ = 0;
+    int first = 0;
     for (const double width : kLastWidths) {
       for (auto search = failed_.rbegin(); search != failed_.rend(); ++search) {
+        lastSearch_ = first;
+        first += kLastRounds;
         warpOn(warped, *search, width);
       }
     }
@@ -148,7 +172,7 @@ class ShootingRun {
   void warpOn(const ShootingProblem& warped, const ShootingSearch& search, double width) {
     const ShootingNode* farthest = search.farthest();
     std::size_t before = farthest != nullptr ? static_cast<std::size_t>(farthest->level) : 0;
-    for (int round = 0; round < kLastRounds && !found() && !stop(); ++round) {
+    for (int round = 0; round < kLastRounds && !found() && !stop(); ++round, ++lastSearch_) {
       TakeLineages lineages = lineagesBeside({}, search, kLastWays, before);
       if (lineages.ways == 0) return;
       before = lineages.beginning.level;
@@ -233,7 +257,12 @@ class ShootingRun {
   /// Numbers of searches that go on from a pass, among those of passes.
   static constexpr std::uint64_t kResumed = 1000;
   std::uint64_t resumed_ = 0;
-  long pieces_ = 0;         ///< simulated so far
+  long pieces_ = 0;  ///< simulated so far
+  double most_ = 0;  ///< pieces after which no other pass begins
+  const char* stage_ = "search";
+  double told_ = 0;     ///< share of the stage
+  int lastSearch_ = 0;  ///< of lastSearches_, where all passes found nothing; 0 before
+  int lastSearches_ = 0;
   std::vector<bool> hard_;  ///< ShootingSearch's
   std::vector<Plan> partial_;
   std::vector<ShootingSearch> failed_;  ///< kept to be gone on with

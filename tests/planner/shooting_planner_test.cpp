@@ -5,8 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <map>
+#include <string>
+#include <vector>
 
 #include "base/parallel.h"
 #include "connection/time_warp.h"
@@ -416,6 +420,26 @@ TEST(ShootingPlannerTest, TellsHowFarItIs) {
   };
   ASSERT_TRUE(ShootingPlanner(test::smallSearch()).plan(dieRequest(easy()), progress).has_value());
   EXPECT_GT(last, 0.3);
+}
+
+TEST(ShootingPlannerTest, TellsHowFarItIsWhereNothingIsFound) {
+  // Nothing is in the air, or rolls on unheard, for so long after that.
+  PlanRequest request = dieRequest(
+      clicks({{0, 0, 1, 0, 1}, {0.25, 0, 0.5, 0, 1}, {0.4, 0, 0.3, 0, 1}, {3, 0, 1, 0, 1}}, true));
+  request.settings.warpsAtLast = true;
+  std::map<std::string, std::vector<double>> told;
+  Progress progress;
+  progress.report = [&](std::string_view stage, double share) {
+    told[std::string(stage)].push_back(share);
+  };
+  const auto plans = ShootingPlanner(test::smallSearch()).plan(request, progress);
+  ASSERT_TRUE(plans.has_value());
+  ASSERT_FALSE(plans->front().solved);
+  for (const char* stage : {"search", "search on"}) {
+    EXPECT_TRUE(std::is_sorted(told[stage].begin(), told[stage].end())) << stage;
+    ASSERT_GT(told[stage].size(), 3U) << stage;
+    EXPECT_LE(told[stage].back(), 1) << stage;
+  }
 }
 
 TEST(ShootingPlannerTest, RefusesWhatIsNoSignature) {
