@@ -27,7 +27,7 @@ SECTIONS = [
      "*f_v* is the geometric mean over contacts."),
     ("planners", "Planners side by side", ["Charts"], "The first five signatures of each row. `graph` is the paper's search, with "
      "events that also stand for their images under the body's symmetry, no early exit. The limit of 60 s and *s to 0.3* are of the processor; *search* and *wall* "
-     "are by the clock, two searches at a time."),
+     "are by the clock, two searches at a time. Why it misses some: [branch-and-bound.md](../branch-and-bound.md)."),
     ("paper_cut", "The paper's own cut of events", ["Charts"], "Planner `graph` as above, but every impulse above zero is "
      "part of an event, as in the paper: databases, and signatures of the same drops, cut likewise. The first three of each "
      "row."),
@@ -84,6 +84,11 @@ def of_planner(report):
     worse = [r["name"] for r in scored if r["mean_score"] < r["paper"]["score"]]
     yield f"`{report['label']}`: solved as many as the paper's, on every row", \
         f"{len(rows) - len(fewer)} of {len(rows)} rows" + (f"; not {', '.join(fewer)}" if fewer else "")
+    total, sounds = report["total"], sum(r["paper"]["sounds"] for r in rows)
+    solved = sum(r["paper"]["solved"] for r in rows)
+    yield f"`{report['label']}`: solved of all", \
+        f"{total['solved']} of {total['cases']} ({100 * total['solved'] / total['cases']:.0f} %); the paper's {solved} " \
+        f"of {sounds} ({100 * solved / sounds:.0f} %)"
     yield f"`{report['label']}`: Score as high as the paper's", \
         f"{len(scored) - len(worse)} of {len(scored)} rows with any solved" + (f"; not {', '.join(worse)}" if worse else "")
 
