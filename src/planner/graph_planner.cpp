@@ -108,6 +108,12 @@ class GraphRun {
     }
     if (!found_.any() && !progress_.stopRequested()) search.reachFarthest();
     farthest_ = search.farthest();
+    // A complete one may have been found only then.
+    if (!found_.any() && isComplete(farthest_)) keep(farthest_);
+  }
+
+  [[nodiscard]] bool isComplete(const GraphPath& path) const {
+    return path.last() + 1 == static_cast<int>(request_.signature.events.size());
   }
 
   Plan partial() {

@@ -285,17 +285,28 @@ bool GraphSearch::allConnect(const GraphPath& path) {
   return true;
 }
 
-/// Nothing leads on from `kept`: gives up its last edge. False when that was the first.
+void GraphSearch::newStart() {
+  deadEnds_ = 0;
+  deadAt_.assign(static_cast<std::size_t>(levels()), 0);
+}
+
+/// Nothing leads on from `kept`: gives up as many of its last edges as times it ended there, since
+/// what was lacking may have been lost long before. False when the start is given up.
 bool GraphSearch::stepBack(GraphPath& kept) {
-  const int level = kept.last() - 1;
-  const std::uint32_t sibling = kept.edges.back().sibling;
-  kept.edges.pop_back();
-  if (kept.edges.empty() || ++deadEnds_ > settings_.mostDeadEnds) {
-    usedStarts_.insert(kept.first);
-    return false;
+  const int most = std::max(1, kept.last() - 1);
+  const int edges = std::min(++deadAt_[static_cast<std::size_t>(kept.last())], most);
+  ++deadEnds_;
+  for (int i = 0; i < edges; ++i) {
+    const int level = kept.last() - 1;
+    const std::uint32_t sibling = kept.edges.back().sibling;
+    kept.edges.pop_back();
+    if (kept.edges.empty() || deadEnds_ > settings_.mostDeadEnds) {
+      usedStarts_.insert(kept.first);
+      return false;
+    }
+    noTurn_.insert(turn(kept, level, sibling));
+    ++bans_[{level, kept.event(level)}];
   }
-  noTurn_.insert(turn(kept, level, sibling));
-  ++bans_[{level, kept.event(level)}];
   return true;
 }
 
@@ -316,7 +327,7 @@ void GraphSearch::reachFarthest() {
 
 std::optional<GraphPath> GraphSearch::next() {
   GraphPath kept;
-  deadEnds_ = 0;
+  newStart();
   while (!spent()) {
     if (progress) progress(static_cast<double>(kept.last()) / (levels() - 1));
     const std::optional<GraphPath> window = bestFrom(kept, depthFrom(kept));
@@ -328,7 +339,7 @@ std::optional<GraphPath> GraphSearch::next() {
       }
       if (!stepBack(kept)) {
         kept = {};
-        deadEnds_ = 0;
+        newStart();
       }
       continue;
     }

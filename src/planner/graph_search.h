@@ -109,6 +109,7 @@ class GraphSearch {
   [[nodiscard]] bool allConnect(const GraphPath& path);
   [[nodiscard]] bool connects(const GraphPath& path, int level);
   bool stepBack(GraphPath& kept);
+  void newStart();
 
   const PlanRequest& request_;
   GraphPlannerSettings settings_;
@@ -129,7 +130,8 @@ class GraphSearch {
   double bestTotal_ = 0;
   GraphPath farthest_;
   long queries_ = 0, mostQueries_;
-  int deadEnds_ = 0;
+  int deadEnds_ = 0;         ///< from this start
+  std::vector<int> deadAt_;  ///< the same, by level
   bool stopped_ = false;
 };
 

@@ -9,6 +9,7 @@
 #include "audit/audit.h"
 #include "dynamics/flight.h"
 #include "motion/build_motion.h"
+#include "planner/graph_plan.h"
 #include "planner/graph_plan_cases.h"
 #include "planner/graph_planner.h"
 #include "support/drop_database.h"
@@ -343,6 +344,40 @@ void GraphPlans::theAuditFindsAnUnderstatedArrival() {
     }
   }
   EXPECT_GE(tried, 3);
+}
+
+/// A wrench turns about its long axis with a hundredth of the moment that it has about others:
+/// rounded to single precision its spin is another angular momentum.
+TEST(GraphPlan, SilenceOfASlenderBodyKeepsItsMomentum) {
+  const Body body = loadObject("Wrench").value();
+  const SurfaceProperties surface = body.definition.surfaces.at("desk");
+  const ContactGraph graph = graphOf(DropDatabase(body, surface, 100, 21), body);
+  RandomStream random(1, 1);
+  int silences = 0;
+  for (std::uint32_t first = 0; first + 1 < graph.database().events() && silences < 100; ++first) {
+    const auto heard = signatureFrom(graph, first, 2, {0, 0}, random);
+    if (!heard) continue;
+    PlanRequest request = graphRequest(body, surface, graph, *heard);
+    TransitionTarget target;
+    target.time = heard->events[1].time - graph.database().values(kDuration)[first];
+    target.heard = heardOf(heard->events[1]);
+    target.firstAmplitude = graph.event(first).amplitude;
+    target.terminal = heard->terminal;
+    const EdgeWeight silence = graph.silentWeight(target, first);
+    if (!silence.exists()) continue;
+    PathConnector connector(request);
+    GraphPath path;
+    path.first = first;
+    path.firstAmplitude = target.firstAmplitude;
+    path.edges.push_back({first, target.time, silence, 0, 0});
+    auto motion = buildMotion(request, planOf(request, path, connector), 0);
+    ASSERT_TRUE(motion) << motion.error().text();
+    motion->object.surface = "desk";
+    const AuditReport report = audit(*motion, body);
+    EXPECT_TRUE(report.find("angular momentum")->passed) << formatAudit(report);
+    ++silences;
+  }
+  EXPECT_GE(silences, 50);
 }
 
 TEST_P(GraphPlans, MeetManySignaturesOfDropsAndHoldTheAudit) {
