@@ -264,7 +264,7 @@ TEST(BuildMotionTest, PartialPlansSayWhatFailed) {
 TEST(BuildMotionTest, WarpsFlightsAndSilentContact) {
   const auto warped = [](Arrival arrival) {
     int count = 0;
-    for (const std::size_t index : {8, 9}) {
+    for (const std::size_t index : {std::size_t{8}, std::size_t{9}}) {
       for (const MotionContact& contact : built(index).motions.at(0).contacts) {
         EXPECT_LT(std::max(contact.retiming, 1 / contact.retiming), 1.3);
         if (contact.retiming != 1 && contact.arrival == arrival) ++count;
