@@ -138,13 +138,7 @@ class Builder {
     const PlannedContact& contact = plan_.contacts[k];
     const KernelState<double> start = kernelState(contact.event.before, 0);
     writer_.place(contact.placement);
-    KernelState<double> arrival = kernelState(arrivalOf(contact), 0);
-    if (contact.unbroken) {
-      // Rounded to the database's precision the spin of a slender body is another momentum.
-      arrival.velocity = arrived_.velocity;
-      arrival.w = arrived_.w;
-    }
-    writer_.sample(arrival, startOf(k), contact.retiming);
+    writer_.sample(kernelState(arrivalOf(contact), 0), startOf(k), contact.retiming);
     stepper_.start(start, contact.restitution);
     const bool met = writer_.run(stepper_, startOf(k), contact.event.end + 1, false,
                                  [&](const Stepper& s, Advance did) {
@@ -178,7 +172,6 @@ class Builder {
                     begin + duration / next.retiming + 1e-3, true, arrives, next.retiming);
     if (!met) return differs(k + 1, "is not reached as planned");
     motion_.trajectory.pop_back();  // the event begins with it
-    if (next.unbroken) arrived_ = stepper_.state();
     return {};
   }
 
@@ -254,7 +247,6 @@ class Builder {
   BodyModel model_;
   Stepper stepper_;
   TrajectoryWriter writer_;
-  KernelState<double> arrived_{};  ///< at the end of an unbroken passage
 };
 
 }  // namespace

@@ -103,7 +103,10 @@ ConnectedEdge PathConnector::makeSilent(std::uint32_t from, double time) {
   edge.placement = placement(from, from, 0);
   edge.arrival = event(from + 1).before;
   edge.arrival.velocity = own.next.velocity;
-  edge.arrival.angularVelocity = own.next.angularVelocity;
+  // As the body sees it: seen from another pose, if only by rounding, the spin of a slender body is
+  // another angular momentum.
+  edge.arrival.angularVelocity =
+      edge.arrival.orientation * (own.next.orientation.conjugate() * own.next.angularVelocity);
   weigh(from, from, time, edge);
   edge.feasible = edge.connection.time.amount() < graph_.settings().largestWarp;
   return edge;
