@@ -246,7 +246,9 @@ page() {
   report readings -- "$work"/{exact,printed,paper}/*.json
   report table2 -- "$work"/table2/*.json
   report orientations -- "$work"/unoriented/*.json "$work"/orientations/*.json
-  report database_size -- "$work"/database_size/*.json
+  # By size, then by object.
+  mapfile -t others < <(printf '%s\n' "$work"/database_size/*.json | sort -V)
+  report database_size -- "${others[@]}"
   python3 scripts/experiments_page.py page "$work" "$out"
   say "the page is $out/README.md"
 }

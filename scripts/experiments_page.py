@@ -27,7 +27,7 @@ SECTIONS = [
      "*f_v* is the geometric mean over contacts."),
     ("planners", "Planners side by side", ["Charts"], "The first five signatures of each row. `graph` is the paper's search, with "
      "events that also stand for their images under the body's symmetry, no early exit. The limit of 60 s and *s to 0.3* are of the processor; *search* and *wall* "
-     "are by the clock, two searches at a time. Why it misses some: [branch-and-bound.md](../branch-and-bound.md)."),
+     "are by the clock, several searches at a time. Why it misses some: [branch-and-bound.md](../branch-and-bound.md)."),
     ("paper_cut", "The paper's own cut of events", ["Charts"], "Planner `graph` as above, but every impulse above zero is "
      "part of an event, as in the paper: databases, and signatures of the same drops, cut likewise. The first three of each "
      "row."),
@@ -39,7 +39,7 @@ SECTIONS = [
      "of 20 cm or more, garlic 30 cm, the tape dispenser 35 cm: near the paper's, as far as drops go so far."),
     ("orientations", "Orientations", ["Orientations"], "`--orient last:FACE=up`: the body is to come to rest so."),
     ("database_size", "Figure 16: Score against the size of the database", ["Charts"], "Planner `graph`, one sound an object, the "
-     "same for all sizes, no early exit."),
+     "same for all sizes, no early exit. Times as of `graph` above."),
 ]
 
 ON_REQUEST = ("paper_cut", "readings")  # not among what is measured without being named
