@@ -246,9 +246,9 @@ page() {
   report readings -- "$work"/{exact,printed,paper}/*.json
   report table2 -- "$work"/table2/*.json
   report orientations -- "$work"/unoriented/*.json "$work"/orientations/*.json
-  # By size, then by object.
-  mapfile -t others < <(printf '%s\n' "$work"/database_size/*.json | sort -V)
-  report database_size -- "${others[@]}"
+  local size by_size=()
+  for size in $sizes; do by_size+=("$work/database_size/$size-"*.json); done
+  report database_size -- "${by_size[@]}"
   python3 scripts/experiments_page.py page "$work" "$out"
   say "the page is $out/README.md"
 }
