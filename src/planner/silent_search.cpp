@@ -13,12 +13,19 @@ namespace {
 /// Changes farther out than this are not tried, in units of the plausible region.
 constexpr double kFarthest = 2.5;
 
-/// Illinois' false position with a bisection now and then: the function may jump where another
-/// vertex comes first. Ends with a call of `miss` within the precision, or false.
+/// What still differs by half between two changes that are so much closer than the first two jumps
+/// there, because another vertex comes first: nothing in between comes on time.
+constexpr double kJump = 0.5, kCloser = 1.0 / 512;
+
+/// Illinois' false position with a bisection now and then, from too early to too late. Ends with a
+/// call of `miss` within the precision, or false.
 template <class Miss>
 bool closeIn(const Miss& miss, double low, double high, double atLow, double atHigh,
              double precision) {
+  const double narrow = kCloser * (high - low), jump = kJump * (atHigh - atLow);
+  double trueLow = atLow, trueHigh = atHigh;
   for (int step = 0; step < 50; ++step) {
+    if (high - low < narrow && trueHigh - trueLow > jump) return false;
     const double share = step % 3 == 2 ? 0.5 : atLow / (atLow - atHigh);
     const double middle = low + (high - low) * std::clamp(share, 0.01, 0.99);
     const double off = miss(middle);
@@ -26,11 +33,11 @@ bool closeIn(const Miss& miss, double low, double high, double atLow, double atH
     if (std::abs(off) < precision) return true;
     if ((off < 0) == (atLow < 0)) {
       low = middle;
-      atLow = off;
+      atLow = trueLow = off;
       atHigh *= 0.5;
     } else {
       high = middle;
-      atHigh = off;
+      atHigh = trueHigh = off;
       atLow *= 0.5;
     }
   }

@@ -35,6 +35,22 @@ TEST(SilentSearch, TakesNoJumpForARoot) {
   EXPECT_TRUE(found([](double x) { return x < 0.1 ? -0.02 : 0.03; }, {}).empty());
 }
 
+TEST(SilentSearch, LeavesAJumpSoonAndARootBesideOneNot) {
+  int probes = 0;
+  const auto jump = [&](double x) {
+    ++probes;
+    return 0.02 * x + (x < 0.1 ? -0.02 : 0.03);
+  };
+  SilentSearchSettings settings;
+  EXPECT_TRUE(found(jump, settings).empty());
+  // False position alone would spend fifty on each pair.
+  EXPECT_LE(probes, settings.probes + 1 + 20 * settings.tries);
+  // A root so near a jump that most pairs have both between them.
+  const auto both = found([](double x) { return x < 0 ? -0.05 : x - 0.01; }, settings);
+  ASSERT_FALSE(both.empty());
+  for (const double off : both) EXPECT_LT(std::abs(off), kSilentPrecision);
+}
+
 TEST(SilentSearch, FindsTheWayIntoABalance) {
   // Between falling to one side and to the other it takes ever longer.
   const auto off = [](double x) { return std::min(0.3, -0.05 - 0.01 * std::log(std::abs(x))); };
