@@ -50,8 +50,12 @@ double heightOf(const BodyModel& model, std::size_t i, const Vec<double>& up) {
 
 std::size_t lowestVertex(const BodyModel& model, const Vec<double>& up) {
   std::size_t lowest = 0;
+  double least = heightOf(model, 0, up);
   for (std::size_t i = 1; i < model.x.size(); ++i) {
-    if (heightOf(model, i, up) < heightOf(model, lowest, up)) lowest = i;
+    const double height = heightOf(model, i, up);
+    if (height >= least) continue;
+    lowest = i;
+    least = height;
   }
   return lowest;
 }

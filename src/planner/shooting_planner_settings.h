@@ -40,7 +40,7 @@ struct ShootingPlannerSettings {
   int passes = 10;                ///< searches with other seeds and wider beams, at most
   double widest = 2.5;            ///< no pass is wider than so many times the first
   /// Of motion simulated, after which no other pass begins, but for further takes.
-  double mostPieces = 5e6;
+  double mostPieces = 3.8e6;
   /// A pass that finds nothing is gone on with so many times, from so many contacts before the last
   /// that it reached.
   int again = 2, againFrom = 3;
