@@ -152,13 +152,13 @@ class Path {
   }
   /// What touches the floor between two pictures falls and rises in straight lines that meet there,
   /// at most half a picture away from the lower one: that is then at most a quarter as high as its
-  /// two neighbours together. A corner that swings past in flight makes a round valley instead. All
-  /// heights are whole rows, and the neighbours' may be up to a row more than is counted.
+  /// two neighbours together. A corner that swings past in flight makes a round valley instead. A
+  /// height is counted in whole rows, and is less than a row more.
   [[nodiscard]] bool isTouch(int first, int last) const {
     const auto before = height(first - 1), here = height(first), after = height(last + 1);
     if (!before || !here || *before <= *here) return false;
     if (!after) return last + 1 == count() && *here <= 1;  // it lies there in the end
-    return *after > *here && *before + 1 + *after + 1 >= 4 * *here;
+    return *after > *here && *before + 1 + *after + 1 > 4 * *here;
   }
   /// First of the pictures up to k that are lower than a pixel and a half over it.
   [[nodiscard]] int firstWithinAPixel(int k) const {
